@@ -1,0 +1,43 @@
+# `make demo` and `make test` set up everything they need; tools/bootstrap says what that is.
+venv := build/venv/bin
+reedvalve := build/release/drivers/reedvalve/reedvalve
+demo_decks := table_3_4 gap_study response table_5
+
+.PHONY: help demo test build lint format bootstrap checks clean
+help:
+	@echo "make demo      run the paper's cases, compare with its tables, write a report"
+	@echo "make test      build, then run all tests"
+	@echo "make build     build the program: $(reedvalve)"
+	@echo "make lint      check format and style of the sources; make format puts them right"
+	@echo "make debug-test, sanitize-test, valgrind-test    the tests in builds with more checks"
+	@echo "make clean     remove build/ and results/"
+
+bootstrap:
+	@tools/bootstrap
+checks:
+	@tools/bootstrap checks
+
+build: build-release
+build-%: bootstrap
+	@cmake --preset $* --log-level=NOTICE
+	@cmake --build --preset $*
+
+demo: build
+	@for deck in $(demo_decks); do \
+	   $(reedvalve) run inputs/$$deck.nml -o results/demo/$$deck --force || exit; done
+	@$(venv)/python -m reedpost compare $(demo_decks:%=results/demo/%)
+	@$(venv)/python -m reedpost plot $(demo_decks:%=results/demo/%)
+	@$(venv)/python -m reedpost report $(demo_decks:%=results/demo/%)
+
+test: build
+	ctest --preset release
+	REEDVALVE=$(abspath $(reedvalve)) $(venv)/python -m pytest -q postproc
+
+%-test: checks build-%
+	ctest --preset $*
+
+lint format: bootstrap
+	@tools/$@
+
+clean:
+	rm -rf build results
