@@ -19,6 +19,7 @@ module rv_pressure
       real(wp) :: cycle_end = 0.0_wp  !! end of the first closing event: the next rise, or the history's end [s]
    contains
       procedure(factors_at), deferred :: factors
+      procedure(span_of), deferred :: span
       procedure(stops_until), deferred :: stops
    end type pressure_history
 
@@ -30,6 +31,13 @@ module rv_pressure
          real(wp), intent(in) :: t               !! [s]
          real(wp), intent(out) :: inlet, outlet  !! [-] or [Pa]
       end subroutine factors_at
+
+      !> Largest |p_in - p_out| of a case with given amplitudes, over all time.
+      pure real(wp) function span_of(self, inlet, outlet)
+         import :: pressure_history, wp
+         class(pressure_history), intent(in) :: self
+         real(wp), intent(in) :: inlet, outlet   !! amplitudes [Pa] or [-]
+      end function span_of
 
       !> Instants where an integrator must not step across: corners and the event, rising, the last one t_end.
       pure function stops_until(self, t_end) result(t)
@@ -47,6 +55,7 @@ module rv_pressure
       real(wp) :: transition = 0.1_wp  !! t_d [s]
    contains
       procedure :: factors => square_factors
+      procedure :: span => square_span
       procedure :: stops => square_stops
    end type square_wave
 
@@ -60,6 +69,7 @@ module rv_pressure
       real(wp), allocatable :: outlet_slope(:)   !! [Pa/s]
    contains
       procedure :: factors => trace_factors
+      procedure :: span => trace_span
       procedure :: stops => trace_stops
    end type pressure_trace
 
@@ -102,6 +112,14 @@ contains
       end if
       outlet = 1.0_wp
    end subroutine square_factors
+
+   pure real(wp) function square_span(self, inlet, outlet) result(span)
+      class(square_wave), intent(in) :: self
+      real(wp), intent(in) :: inlet, outlet
+
+      span = 0.0_wp
+      if (self%period > 0.0_wp) span = max(abs(inlet - outlet), abs(outlet))
+   end function square_span
 
    pure function square_stops(self, t_end) result(t)
       class(square_wave), intent(in) :: self
@@ -178,6 +196,13 @@ contains
       outlet = cubic_value(self%time(lo:hi), self%outlet(lo:hi), self%outlet_slope(lo:hi), x)
    end subroutine trace_factors
 
+   pure real(wp) function trace_span(self, inlet, outlet) result(span)
+      class(pressure_trace), intent(in) :: self
+      real(wp), intent(in) :: inlet, outlet
+
+      span = maxval(abs(inlet*self%inlet - outlet*self%outlet))
+   end function trace_span
+
    !> The interpolant has no corners, but the measures start at the event.
    pure function trace_stops(self, t_end) result(t)
       class(pressure_trace), intent(in) :: self
@@ -197,9 +222,7 @@ contains
       closest = 1.0e-9_wp*(t_end - start)
       t = pack(corner, corner > start + closest .and. corner < t_end - closest)
       if (event > start + closest .and. event < t_end - closest) then
-         if (.not. any(abs(t - event) <= closest)) then
-            t = [pack(t, t < event), event, pack(t, t > event)]
-         end if
+         t = [pack(t, t < event - closest), event, pack(t, t > event + closest)]
       end if
       t = [t, t_end]
    end function merge_stops

@@ -1,0 +1,441 @@
+/* Every SUNDIALS call of reedvalve: the lanes' vector, the stage solver and the integrator. */
+#include "rv_arkode.h"
+
+#include <arkode/arkode_arkstep.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sundials/sundials_context.h>
+#include <sundials/sundials_nonlinearsolver.h>
+#include <sundials/sundials_nvector.h>
+#include <sundials/sundials_types.h>
+#include <sundials/sundials_version.h>
+
+#define SUNDIALS_NUMBER (SUNDIALS_VERSION_MAJOR * 100 + SUNDIALS_VERSION_MINOR)
+
+/* Names and signatures that changed after 6.4. */
+#if SUNDIALS_NUMBER >= 700
+#define CONTEXT_CREATE(ctx) SUNContext_Create(SUN_COMM_NULL, ctx)
+#else
+#define CONTEXT_CREATE(ctx) SUNContext_Create(NULL, ctx)
+#endif
+#if SUNDIALS_NUMBER >= 701
+#include <sunadaptcontroller/sunadaptcontroller_soderlind.h>
+#define ARK(name) ARKode##name
+#else
+#define ARK(name) ARKStep##name
+#endif
+
+struct rv_arkode {
+  int lanes, states;
+  rv_rhs_fn rhs;
+  rv_stage_fn stage;
+  rv_weight_fn weight;
+  void *data;
+  SUNContext context;
+  void *memory;
+  N_Vector y, base;
+  SUNNonlinearSolver solver;
+#if SUNDIALS_NUMBER >= 701
+  SUNAdaptController controller;
+#endif
+  char message[256];
+};
+
+/* ---- Vector of lanes ------------------------------------------------------------------------ */
+
+typedef struct {
+  double *data;
+  int lanes, states;
+} lane_content;
+
+static inline double *values(N_Vector v) { return ((lane_content *)v->content)->data; }
+
+static inline sunindextype count(N_Vector v) {
+  const lane_content *c = v->content;
+  return (sunindextype)c->lanes * c->states;
+}
+
+static N_Vector lanes_new(SUNContext context, int lanes, int states);
+
+static N_Vector_ID lanes_id(N_Vector v) {
+  (void)v;
+  return SUNDIALS_NVEC_CUSTOM;
+}
+
+static N_Vector lanes_clone(N_Vector v) {
+  const lane_content *c = v->content;
+  return lanes_new(v->sunctx, c->lanes, c->states);
+}
+
+static void lanes_destroy(N_Vector v) {
+  if (v == NULL) return;
+  if (v->content != NULL) free(values(v));
+  free(v->content);
+  v->content = NULL;
+  N_VFreeEmpty(v);
+}
+
+static void lanes_space(N_Vector v, sunindextype *reals, sunindextype *integers) {
+  *reals = count(v);
+  *integers = 2;
+}
+
+static void lanes_linear_sum(sunrealtype a, N_Vector x, sunrealtype b, N_Vector y, N_Vector z) {
+  const double *xd = values(x), *yd = values(y);
+  double *zd = values(z);
+  const sunindextype n = count(z);
+  for (sunindextype i = 0; i < n; i++) zd[i] = a * xd[i] + b * yd[i];
+}
+
+static void lanes_const(sunrealtype c, N_Vector z) {
+  double *zd = values(z);
+  const sunindextype n = count(z);
+  for (sunindextype i = 0; i < n; i++) zd[i] = c;
+}
+
+static void lanes_prod(N_Vector x, N_Vector y, N_Vector z) {
+  const double *xd = values(x), *yd = values(y);
+  double *zd = values(z);
+  const sunindextype n = count(z);
+  for (sunindextype i = 0; i < n; i++) zd[i] = xd[i] * yd[i];
+}
+
+static void lanes_div(N_Vector x, N_Vector y, N_Vector z) {
+  const double *xd = values(x), *yd = values(y);
+  double *zd = values(z);
+  const sunindextype n = count(z);
+  for (sunindextype i = 0; i < n; i++) zd[i] = xd[i] / yd[i];
+}
+
+static void lanes_scale(sunrealtype c, N_Vector x, N_Vector z) {
+  const double *xd = values(x);
+  double *zd = values(z);
+  const sunindextype n = count(z);
+  for (sunindextype i = 0; i < n; i++) zd[i] = c * xd[i];
+}
+
+static void lanes_abs(N_Vector x, N_Vector z) {
+  const double *xd = values(x);
+  double *zd = values(z);
+  const sunindextype n = count(z);
+  for (sunindextype i = 0; i < n; i++) zd[i] = fabs(xd[i]);
+}
+
+static void lanes_inv(N_Vector x, N_Vector z) {
+  const double *xd = values(x);
+  double *zd = values(z);
+  const sunindextype n = count(z);
+  for (sunindextype i = 0; i < n; i++) zd[i] = 1.0 / xd[i];
+}
+
+static void lanes_add_const(N_Vector x, sunrealtype b, N_Vector z) {
+  const double *xd = values(x);
+  double *zd = values(z);
+  const sunindextype n = count(z);
+  for (sunindextype i = 0; i < n; i++) zd[i] = xd[i] + b;
+}
+
+static sunrealtype lanes_max_norm(N_Vector x) {
+  const double *xd = values(x);
+  const sunindextype n = count(x);
+  double largest = 0.0;
+  for (sunindextype i = 0; i < n; i++) largest = fmax(largest, fabs(xd[i]));
+  return largest;
+}
+
+static sunrealtype lanes_min(N_Vector x) {
+  const double *xd = values(x);
+  const sunindextype n = count(x);
+  double smallest = xd[0];
+  for (sunindextype i = 1; i < n; i++) smallest = fmin(smallest, xd[i]);
+  return smallest;
+}
+
+/* The largest of the lanes' norms; a NaN in any lane makes it NaN, which ARKODE rejects. */
+static sunrealtype lanes_wrms_norm(N_Vector x, N_Vector w) {
+  const lane_content *c = x->content;
+  const double *xd = values(x), *wd = values(w);
+  double largest = 0.0, poison = 0.0;
+  for (int i = 0; i < c->lanes; i++) {
+    double sum = 0.0;
+    for (int k = 0; k < c->states; k++) {
+      const double e = xd[k * c->lanes + i] * wd[k * c->lanes + i];
+      sum += e * e;
+    }
+    poison += 0.0 * sum;
+    largest = sum > largest ? sum : largest;
+  }
+  return sqrt(largest / c->states) + poison;
+}
+
+/* z = sum of c[j] x[j]; ARKODE lets z be x[0]. */
+static int lanes_linear_combination(int terms, sunrealtype *c, N_Vector *x, N_Vector z) {
+  double *zd = values(z);
+  const sunindextype n = count(z);
+  const double *first = values(x[0]);
+  for (sunindextype i = 0; i < n; i++) zd[i] = c[0] * first[i];
+  for (int j = 1; j < terms; j++) {
+    const double *xd = values(x[j]);
+    for (sunindextype i = 0; i < n; i++) zd[i] += c[j] * xd[i];
+  }
+  return 0;
+}
+
+static N_Vector lanes_new(SUNContext context, int lanes, int states) {
+  N_Vector v = N_VNewEmpty(context);
+  if (v == NULL) return NULL;
+  v->ops->nvgetvectorid = lanes_id;
+  v->ops->nvclone = lanes_clone;
+  v->ops->nvdestroy = lanes_destroy;
+  v->ops->nvspace = lanes_space;
+  v->ops->nvgetarraypointer = values;
+  v->ops->nvgetlength = count;
+  v->ops->nvlinearsum = lanes_linear_sum;
+  v->ops->nvconst = lanes_const;
+  v->ops->nvprod = lanes_prod;
+  v->ops->nvdiv = lanes_div;
+  v->ops->nvscale = lanes_scale;
+  v->ops->nvabs = lanes_abs;
+  v->ops->nvinv = lanes_inv;
+  v->ops->nvaddconst = lanes_add_const;
+  v->ops->nvmaxnorm = lanes_max_norm;
+  v->ops->nvwrmsnorm = lanes_wrms_norm;
+  v->ops->nvmin = lanes_min;
+  v->ops->nvlinearcombination = lanes_linear_combination;
+  lane_content *c = malloc(sizeof *c);
+  const size_t bytes = ((size_t)lanes * states * sizeof(double) + 63) / 64 * 64;
+  double *data = aligned_alloc(64, bytes);
+  if (c == NULL || data == NULL) {
+    free(c);
+    free(data);
+    N_VFreeEmpty(v);
+    return NULL;
+  }
+  memset(data, 0, bytes);
+  *c = (lane_content){data, lanes, states};
+  v->content = c;
+  return v;
+}
+
+/* ---- Stage solver --------------------------------------------------------------------------- */
+
+static SUNNonlinearSolver_Type stage_type(SUNNonlinearSolver solver) {
+  (void)solver;
+  return SUNNONLINEARSOLVER_FIXEDPOINT;
+}
+
+static int stage_set_function(SUNNonlinearSolver solver, SUNNonlinSolSysFn function) {
+  (void)solver;
+  (void)function;
+  return 0;
+}
+
+/* ARKODE asks for the correction zcor of z = zpred + zcor with zcor = gamma f(t, z) + sdata. */
+static int stage_solve(SUNNonlinearSolver solver, N_Vector guess, N_Vector correction, N_Vector weight,
+                       sunrealtype tolerance, sunbooleantype setup, void *memory) {
+  (void)guess;
+  (void)weight;
+  (void)tolerance;
+  (void)setup;
+  (void)memory;
+  rv_arkode *self = solver->content;
+  N_Vector predicted, stage, rhs, known;
+  sunrealtype t, gamma;
+  void *data;
+  if (ARK(GetNonlinearSystemData)(self->memory, &t, &predicted, &stage, &rhs, &gamma, &known, &data) != 0)
+    return SUN_NLS_MEM_NULL;
+  N_VLinearSum(1.0, predicted, 1.0, known, self->base);
+  N_VScale(1.0, predicted, correction);
+  const int flag = self->stage(t, gamma, values(self->base), values(correction), self->data);
+  if (flag > 0) return SUN_NLS_CONV_RECVR;
+  if (flag < 0) return SUN_NLS_EXT_FAIL;
+  N_VLinearSum(1.0, correction, -1.0, predicted, correction);
+  return 0;
+}
+
+static SUNNonlinearSolver stage_solver_new(rv_arkode *self) {
+  SUNNonlinearSolver solver = SUNNonlinSolNewEmpty(self->context);
+  if (solver == NULL) return NULL;
+  solver->ops->gettype = stage_type;
+  solver->ops->solve = stage_solve;
+  solver->ops->setsysfn = stage_set_function;
+  solver->content = self;
+  return solver;
+}
+
+/* ---- Integrator ----------------------------------------------------------------------------- */
+
+static int call_rhs(sunrealtype t, N_Vector y, N_Vector ydot, void *data) {
+  rv_arkode *self = data;
+  return self->rhs(t, values(y), values(ydot), self->data);
+}
+
+static int call_weight(N_Vector y, N_Vector weight, void *data) {
+  rv_arkode *self = data;
+  return self->weight(values(y), values(weight), self->data);
+}
+
+/* SUNDIALS would print; keep its sentence for the caller instead. */
+#if SUNDIALS_NUMBER >= 700
+static void keep_message(int line, const char *function, const char *file, const char *message, SUNErrCode code,
+                         void *data, SUNContext context) {
+  (void)line;
+  (void)file;
+  (void)code;
+  (void)context;
+  rv_arkode *self = data;
+  snprintf(self->message, sizeof self->message, "%s: %s", function, message);
+}
+#else
+static void keep_message(int code, const char *module, const char *function, char *message, void *data) {
+  (void)code;
+  (void)module;
+  rv_arkode *self = data;
+  snprintf(self->message, sizeof self->message, "%s: %s", function, message);
+}
+#endif
+
+/* Name the call that failed, unless SUNDIALS already said more. */
+static int failed(rv_arkode *self, const char *call, int flag) {
+  if (flag >= 0) return flag;
+  if (self->message[0] == '\0') snprintf(self->message, sizeof self->message, "%s failed with flag %d", call, flag);
+  return flag;
+}
+
+#define TRY(call)                                                 \
+  do {                                                            \
+    const int flag_ = (call);                                     \
+    if (flag_ < 0) return failed(self, #call, flag_);             \
+  } while (0)
+
+/* Each setting that a later SUNDIALS changes the default of is set by name. */
+static int configure(rv_arkode *self, const char *table) {
+  void *m = self->memory;
+#if SUNDIALS_NUMBER >= 700
+  TRY(SUNContext_ClearErrHandlers(self->context));
+  TRY(SUNContext_PushErrHandler(self->context, keep_message, self));
+#else
+  TRY(ARKStepSetErrHandlerFn(m, keep_message, self));
+#endif
+  TRY(ARK(SetUserData)(m, self));
+  TRY(ARKStepSetTableName(m, table, "ARKODE_ERK_NONE"));
+  TRY(ARK(WFtolerances)(m, call_weight));
+  TRY(ARK(SetNonlinearSolver)(m, self->solver));
+  TRY(ARK(SetDeduceImplicitRhs)(m, SUNTRUE));
+  TRY(ARK(SetInterpolantType)(m, ARK_INTERP_LAGRANGE));
+  TRY(ARK(SetPredictorMethod)(m, 0));
+  TRY(ARK(SetMaxNumSteps)(m, -1));
+  TRY(ARK(SetMaxHnilWarns)(m, -1));
+  TRY(ARK(SetSafetyFactor)(m, 0.96));
+  TRY(ARK(SetErrorBias)(m, 1.5));
+#if SUNDIALS_NUMBER >= 701
+  TRY(ARKodeSetAdaptController(m, self->controller));
+#else
+  TRY(ARKStepSetAdaptivityMethod(m, ARK_ADAPT_PID, 1, 0, NULL));
+#endif
+  return 0;
+}
+
+static int build(rv_arkode *self, double t0, const double *y0, const char *table) {
+  if (CONTEXT_CREATE(&self->context) != 0) {
+    snprintf(self->message, sizeof self->message, "SUNContext_Create failed");
+    return -1;
+  }
+  self->y = lanes_new(self->context, self->lanes, self->states);
+  self->base = lanes_new(self->context, self->lanes, self->states);
+  self->solver = stage_solver_new(self);
+  if (self->y != NULL) {
+    memcpy(values(self->y), y0, (size_t)count(self->y) * sizeof(double));
+    self->memory = ARKStepCreate(NULL, call_rhs, t0, self->y, self->context);
+  }
+#if SUNDIALS_NUMBER >= 701
+  self->controller = SUNAdaptController_PID(self->context);
+  if (self->controller == NULL) self->memory = NULL;
+#endif
+  if (self->base == NULL || self->solver == NULL || self->memory == NULL) {
+    snprintf(self->message, sizeof self->message, "no memory for an integrator of %d lanes", self->lanes);
+    return -1;
+  }
+  return configure(self, table);
+}
+
+int rv_arkode_new(int lanes, int states, double t0, const double *y0, const char *table, rv_rhs_fn rhs,
+                  rv_stage_fn stage, rv_weight_fn weight, void *data, rv_arkode **out) {
+  rv_arkode *self = calloc(1, sizeof *self);
+  *out = self;
+  if (self == NULL) return -1;
+  self->lanes = lanes;
+  self->states = states;
+  self->rhs = rhs;
+  self->stage = stage;
+  self->weight = weight;
+  self->data = data;
+  return build(self, t0, y0, table);
+}
+
+int rv_arkode_step(rv_arkode *self, double t_stop, double *t, double *y) {
+  self->message[0] = '\0';
+  TRY(ARK(SetStopTime)(self->memory, t_stop));
+  const int flag = ARK(Evolve)(self->memory, t_stop, self->y, t, ARK_ONE_STEP);
+  if (flag < 0) return failed(self, "ARKODE", flag);
+  memcpy(y, values(self->y), (size_t)count(self->y) * sizeof(double));
+  return flag == ARK_TSTOP_RETURN ? RV_AT_STOP : RV_STEPPED;
+}
+
+int rv_arkode_restart(rv_arkode *self, double t, const double *y) {
+  self->message[0] = '\0';
+  memcpy(values(self->y), y, (size_t)count(self->y) * sizeof(double));
+  return failed(self, "restart", ARK(Reset)(self->memory, t, self->y));
+}
+
+int rv_arkode_fix_step(rv_arkode *self, double step) {
+  return failed(self, "fixed step", ARK(SetFixedStep)(self->memory, step));
+}
+
+int rv_arkode_worst_lane(rv_arkode *self) {
+  N_Vector error = lanes_clone(self->y), weight = lanes_clone(self->y);
+  int worst = 0;
+  if (error != NULL && weight != NULL && ARK(GetEstLocalErrors)(self->memory, error) == 0 &&
+      ARK(GetErrWeights)(self->memory, weight) == 0) {
+    const double *e = values(error), *w = values(weight);
+    double largest = -1.0;
+    for (int i = 0; i < self->lanes; i++) {
+      double sum = 0.0;
+      for (int k = 0; k < self->states; k++) sum += fabs(e[k * self->lanes + i] * w[k * self->lanes + i]);
+      if (!(sum <= largest)) {
+        worst = i;
+        largest = isnan(sum) ? HUGE_VAL : sum;
+      }
+    }
+  }
+  lanes_destroy(error);
+  lanes_destroy(weight);
+  return worst;
+}
+
+void rv_arkode_message(const rv_arkode *self, char *buffer, int size) {
+  snprintf(buffer, (size_t)size, "%s", self != NULL ? self->message : "no memory");
+}
+
+void rv_arkode_free(rv_arkode **pointer) {
+  rv_arkode *self = *pointer;
+  *pointer = NULL;
+  if (self == NULL) return;
+#if SUNDIALS_NUMBER >= 701
+  if (self->memory != NULL) ARKodeFree(&self->memory);
+  if (self->controller != NULL) SUNAdaptController_Destroy(self->controller);
+#else
+  if (self->memory != NULL) ARKStepFree(&self->memory);
+#endif
+  if (self->solver != NULL) SUNNonlinSolFreeEmpty(self->solver);
+  lanes_destroy(self->base);
+  lanes_destroy(self->y);
+  if (self->context != NULL) SUNContext_Free(&self->context);
+  free(self);
+}
+
+void rv_sundials_version(char *buffer, int size) {
+  if (SUNDIALSGetVersion(buffer, size) != 0) snprintf(buffer, (size_t)size, "unknown");
+}

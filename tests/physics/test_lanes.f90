@@ -1,0 +1,118 @@
+!> Lanes keep to themselves: company, order, hard and failing neighbours change a case by no more than its tolerance.
+program test_lanes
+   use, intrinsic :: ieee_arithmetic, only : ieee_is_nan, ieee_value, ieee_quiet_nan
+   use rv_kinds, only : wp
+   use rv_lanes, only : lane_outcome, lane_settings, run_lanes
+   use rv_lumped, only : lumped_valve
+   use rv_status, only : status_ok, status_name, status_too_many_steps
+   use check, only : suite_type
+   use paper_valve, only : valve_at, wave_40ms, kpa, mm, ms
+   implicit none
+   type(suite_type) :: suite
+   integer, parameter :: w = 16
+   real(wp), parameter :: rtol = 1.0e-6_wp
+   real(wp) :: no_times(0)
+
+   call alone_and_in_company()
+   call failing_neighbour()
+   call step_limit()
+   call suite%finish()
+
+contains
+
+   !> Mixed easy and hard cases: 0.01 to 1 mm of gap, 0.1 to 500 kPa.
+   function mixed_cases() result(valve)
+      type(lumped_valve) :: valve(w)
+      integer :: i
+
+      do i = 1, w
+         valve(i) = valve_at(0.1_wp*kpa*5000.0_wp**(real(mod(7*i, w), wp)/real(w - 1, wp)), &
+            & 0.01_wp*mm*100.0_wp**(real(mod(5*i, w), wp)/real(w - 1, wp)), 0.0075_wp)
+      end do
+      valve(3)%squeeze = 0.0_wp
+   end function mixed_cases
+
+   subroutine alone_and_in_company()
+      type(lumped_valve) :: valve(w)
+      type(lane_outcome) :: together, backwards, alone
+      type(lane_settings) :: settings, tight
+      real(wp) :: worst, worst_alone
+      integer :: i
+
+      valve = mixed_cases()
+      settings%t_end = 40.0_wp*ms
+      settings%rtol = rtol
+      tight = settings
+      tight%rtol = 1.0e-11_wp
+      call run_lanes(valve, wave_40ms(), settings, no_times, together)
+      call run_lanes(valve(w:1:-1), wave_40ms(), settings, no_times, backwards)
+      worst = 0.0_wp
+      worst_alone = 0.0_wp
+      do i = 1, w
+         call run_lanes(valve(i:i), wave_40ms(), tight, no_times, alone)
+         worst = max(worst, distance(together%measure(:, i), alone%measure(:, 1)))
+         call run_lanes(valve(i:i), wave_40ms(), settings, no_times, alone)
+         worst_alone = max(worst_alone, distance(together%measure(:, i), alone%measure(:, 1)))
+      end do
+      call suite%true("all lanes end well", all(together%status == status_ok))
+      call suite%close("worst relative distance of a measured time to a converged single run", worst, 0.0_wp, 0.0_wp, 1.0e-4_wp)
+      call suite%close("worst relative distance to the same case run alone", worst_alone, 0.0_wp, 0.0_wp, 1.0e-4_wp)
+      call suite%true("the order of the lanes does not matter", &
+         & .not. any(abs(together%measure - backwards%measure(:, w:1:-1)) > 0.0_wp))
+   end subroutine alone_and_in_company
+
+   !> Largest relative distance of fall and closing time; one missing and the other not counts as 1.
+   real(wp) function distance(a, b)
+      real(wp), intent(in) :: a(:), b(:)
+      integer :: k
+
+      distance = 0.0_wp
+      do k = 5, 6
+         if (ieee_is_nan(a(k)) .neqv. ieee_is_nan(b(k))) distance = 1.0_wp
+         if (.not. ieee_is_nan(a(k))) distance = max(distance, abs(a(k)/b(k) - 1.0_wp))
+      end do
+   end function distance
+
+   !> A lane that is not finite, one at the start and one in mid-run: recorded, the others go on.
+   subroutine failing_neighbour()
+      type(lumped_valve) :: valve(w)
+      type(lane_outcome) :: with, without
+      type(lane_settings) :: settings
+      logical :: others(w)
+      real(wp) :: worst
+      integer :: i
+
+      settings%t_end = 40.0_wp*ms
+      settings%rtol = rtol
+      valve = mixed_cases()
+      call run_lanes(valve, wave_40ms(), settings, no_times, without)
+      valve(5)%damping = ieee_value(1.0_wp, ieee_quiet_nan)
+      valve(9)%damping = -30.0_wp   ! grows without bound: fails late, by overflow or by step size
+      call run_lanes(valve, wave_40ms(), settings, no_times, with)
+      others = .true.
+      others([5, 9]) = .false.
+      call suite%true("the lane with a NaN fails ("//status_name(with%status(5))//", "//with%message(5)%s//")", &
+         & with%status(5) /= status_ok)
+      call suite%true("the unstable lane fails ("//status_name(with%status(9))//", "//with%message(9)%s//")", &
+         & with%status(9) /= status_ok)
+      call suite%true("its message names the time", index(with%message(9)%s, "at t = ") == 1)
+      call suite%true("the other lanes end well", all(with%status == status_ok .eqv. others))
+      worst = 0.0_wp
+      do i = 1, w
+         if (others(i)) worst = max(worst, distance(with%measure(:, i), without%measure(:, i)))
+      end do
+      call suite%close("and are where they were without the failures", worst, 0.0_wp, 0.0_wp, 1.0e-4_wp)
+   end subroutine failing_neighbour
+
+   subroutine step_limit()
+      type(lane_outcome) :: outcome
+      type(lane_settings) :: settings
+
+      settings%t_end = 40.0_wp*ms
+      settings%max_steps = 20
+      call run_lanes([valve_at(20.0_wp*kpa, 0.05_wp*mm, 0.0075_wp)], wave_40ms(), settings, no_times, outcome)
+      call suite%equal("status at the step limit", outcome%status(1), status_too_many_steps)
+      call suite%true("message: "//outcome%message(1)%s, index(outcome%message(1)%s, "after 20 steps") == 1)
+   end subroutine step_limit
+
+end program test_lanes
