@@ -45,6 +45,10 @@ contains
       h = step%t1 - step%t0
       do while (self%next <= size(self%time))
          if (self%time(self%next) > step%t1) return
+         if (self%time(self%next) < step%t0) then   ! before the start of this case
+            self%next = self%next + 1
+            cycle
+         end if
          if (h > 0.0_wp) then
             s = (self%time(self%next) - step%t0)/h
             do i = 1, step%width
