@@ -1,0 +1,7 @@
+"""Entry of `python -m reedpost`."""
+
+import sys
+
+from reedpost.cli import main
+
+sys.exit(main())

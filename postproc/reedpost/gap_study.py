@@ -1,0 +1,133 @@
+"""The gap study at 20 kPa, beside what the finite element section states in words."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from reedpost import paper
+from reedpost.measured import NO_CASE, measured, number
+from reedpost.results import Result
+from reedpost.studies import Variant, is_monotone_fall
+from reedpost.tables import Cell, Column, Table
+
+SEEN_MM = 1.0e-5  # the accuracy of the solution; an undershoot below it is none
+MANY_GAPS = 12  # a table with more rows than that shows the paper's gaps only
+
+COLUMNS = [
+    Column("gap_mm", "gap", "mm", ".3g"),
+    Column("steady_mm", "steady", "mm", ".4f"),
+    Column("fall_ms", "fall", "ms", ".3f"),
+    Column("closing_ms", "closing", "ms", ".3f"),
+    Column("undershoot_mm", "undershoot", "mm", ".4f"),
+    Column("undershoot_percent", "of steady", "%", ".1f"),
+    Column("peak_squeeze_n", "peak film", "N", ".4f"),
+    Column("film_exceeds_hole_ms", "film > hole", "ms", ".2f"),
+]
+MEASURES = ("steady_mm", "fall_ms", "closing_ms", "undershoot_mm")
+
+
+def action_area_mm2(result: Result, case: int) -> float:
+    """The area the pressure acts on [mm2]; the hole's unless the deck says otherwise."""
+    area = result.value("reed.action_area_mm2", case)
+    if isinstance(area, float) and not math.isnan(area):
+        return area
+    return math.pi / 4 * float(result.value("reed.hole_diameter_mm", case)) ** 2
+
+
+def closing_event_ms(result: Result, case: int) -> float:
+    """Start of the closing event of one case [ms]."""
+    event = result.value("pressure.event_ms", case)
+    if isinstance(event, float) and not math.isnan(event):
+        return event
+    period, ramp = (float(result.value(f"pressure.{k}_ms", case)) for k in ("period", "transition"))
+    return 0.5 * (period - ramp)
+
+
+def film_exceeds_hole_ms(result: Result, case: int) -> float:
+    """When the squeeze force first exceeds the pressure force on the hole [ms]; NaN if never.
+
+    Looked for during the pressure ramp: after it the hole has no force to exceed.
+    """
+    if not result.has_traces:
+        return math.nan
+    time, event = result.time(), closing_event_ms(result, case)
+    ramp = (time > event) & (time < event + float(result.value("pressure.transition_ms", case)))
+    hole = 1e-3 * action_area_mm2(result, case) * result.trace("inlet_kpa", case)[ramp]
+    above = np.flatnonzero(result.trace("squeeze_n", case)[ramp] > hole)
+    return float(time[ramp][above[0]]) if len(above) else math.nan
+
+
+def gap_table(variant: Variant, model: str) -> Table:
+    """The gap study for one model."""
+    result = variant.result
+    table = Table(
+        name=f"gap_study_{model}",
+        title=f"Gap study at {paper.GAP_STUDY_KPA:g} kPa: {model} model",
+        columns=COLUMNS,
+    )
+    found: dict[float, int] = {}
+    for gap in _gaps(variant, table):
+        case = variant.find(model, paper.GAP_STUDY_KPA, gap)
+        cells: list[Cell] = [gap, NO_CASE, *[None] * 6]
+        if case is None:
+            table.problems.append(f"no case at gap {gap:g} mm, 20 kPa for model {model}")
+        else:
+            what = f"{model}, gap {gap:g} mm"
+            values = [measured(result, case, name, what, table) for name in MEASURES]
+            cells = [gap, *values, 100 * number(values[3]) / number(values[0])]
+            cells += [float(result.measure("peak_squeeze_n")[case])]
+            cells += [film_exceeds_hole_ms(result, case)]
+            if result.status[case] == "ok":
+                found[gap] = case
+        table.rows.append(cells)
+    table.notes.append("Finite elements at gap 0.05 mm: steady 0.0951 mm, fall 1.42 ms, closing 3.88 ms (Table I).")
+    if model == "traditional":
+        table.notes.append("This model has no film, so the gap does not act on it.")
+    else:
+        table.notes += _findings(result, found)
+    return table
+
+
+def _gaps(variant: Variant, table: Table) -> list[float]:
+    """The paper's gaps [mm], and the result's further ones unless they are too many to print."""
+    own = [float(gap) for gap in variant.axis("film.gap_mm")]
+    if len(own) > MANY_GAPS:
+        table.notes.append(f"Of the result's {len(own)} gaps only the paper's are shown.")
+        return list(paper.GAP_STUDY_MM)
+    further = [gap for gap in own if not np.isclose(gap, paper.GAP_STUDY_MM, rtol=1e-6).any()]
+    return sorted([*paper.GAP_STUDY_MM, *further])
+
+
+def _findings(result: Result, found: dict[float, int]) -> list[str]:
+    """What the finite element section states, and what our cases (gap -> case) show."""
+    if not found:
+        return []
+    gaps = sorted(found)
+    cases = [found[gap] for gap in gaps]
+    closing, under, steady, opening = (
+        result.measure(name)[cases] for name in ("closing_ms", "undershoot_mm", "steady_mm", "opening_ms")
+    )
+    lines = []
+    if len(gaps) > 1:
+        verdict = "so it is at every step" if is_monotone_fall(closing) else "not at every step"
+        lines.append(f"FE: the wider the gap the faster it closes. Ours: {verdict}.")
+    below = np.flatnonzero(under > SEEN_MM)
+    verdict = "at no gap"
+    if len(below):
+        i = below[0]
+        verdict = f"from {gaps[i]:g} mm on ({100 * under[i] / steady[i]:.1f} % of steady there)"
+    lines.append(f"FE: it swings below its rest position from 0.15 mm on. Ours: {verdict}.")
+    if math.isclose(gaps[0], paper.GAP_MM, rel_tol=1e-6):
+        verdict = "so it is" if opening[0] < closing[0] else "no"
+        lines.append(
+            f"FE: opening is faster than closing at 0.05 mm. Ours: {verdict} "
+            f"({opening[0]:.2f} and {closing[0]:.2f} ms)."
+        )
+    if result.has_traces:
+        lines.append(
+            "FE: at 0.05 mm the force on the land exceeds that on the hole from 19.70 ms (root side) "
+            "and 20.15 ms (tip side) on, at 0.20 mm never. Ours, whole film: last column."
+        )
+    return lines
