@@ -12,7 +12,8 @@
 module rv_hydrodynamic_load
    use, intrinsic :: ieee_arithmetic, only : ieee_value, ieee_quiet_nan
    use rv_kinds, only : wp, pi
-   use rv_error, only : error_type, fail, rv_bad_input
+   use rv_error, only : error_type, fail, rv_bad_input, rv_not_converged
+   use rv_text, only : to_text
    use rv_hydrodynamic_function, only : maali_function, sader_function, maali_range, sader_range
    use rv_reed, only : reed_type
    implicit none
@@ -52,25 +53,30 @@ contains
       type(reed_type), intent(in) :: reed
       type(fluid_type), intent(in) :: fluid
       type(error_type), allocatable, intent(out) :: error
-      real(wp) :: omega
+      real(wp), parameter :: tolerance = 1.0e-14_wp   !! of omega; the rounding of Sader's Gamma is some 1e-15
+      real(wp) :: omega, wet
       integer :: iteration
 
       if (.not. (fluid%density > 0.0_wp .and. fluid%viscosity > 0.0_wp .and. reed%mass > 0.0_wp)) then
          call fail(error, rv_bad_input, "the hydrodynamic load needs density, viscosity and the reed's mass > 0")
          return
       end if
-      self%angular_frequency = sqrt(reed%stiffness/reed%mass)
+      omega = sqrt(reed%stiffness/reed%mass)
       select case (choice)
       case (load_published)
-         self = load_at(choice, reed, fluid, self%angular_frequency)
+         self = load_at(choice, reed, fluid, omega)
       case (load_maali, load_sader)
          do iteration = 1, 200
-            omega = self%angular_frequency
             self = load_at(choice, reed, fluid, omega)
-            self%angular_frequency = sqrt(reed%stiffness/(reed%mass + self%added_mass))
-            if (abs(self%angular_frequency - omega) <= 2.0_wp*epsilon(omega)*omega) return
+            wet = sqrt(reed%stiffness/(reed%mass + self%added_mass))
+            if (abs(wet - omega) <= tolerance*omega) return
+            omega = wet
          end do
+         self = hydrodynamic_load()
+         call fail(error, rv_not_converged, "no wet frequency found for the hydrodynamic load near " &
+            & //to_text(omega, 6)//" rad/s")
       case (load_none)
+         self%angular_frequency = omega
          self%reynolds = ieee_value(1.0_wp, ieee_quiet_nan)
       case default
          call fail(error, rv_bad_input, "unknown hydrodynamic load")
