@@ -98,9 +98,7 @@ def closing_time(model: Oscillator, rate: float, open_ms: float, start_ms: float
 
     def displacement_over_rate(t_ms: float) -> float:  # k u / (A rate) [s]
         t = (t_ms - start_ms) * 1e-3
-        transient = np.exp(-decay * t) * (
-            lag * np.cos(ring * t) + (lag * decay - 1) / ring * np.sin(ring * t)
-        )
+        transient = np.exp(-decay * t) * (lag * np.cos(ring * t) + (lag * decay - 1) / ring * np.sin(ring * t))
         return (open_ms - start_ms) * 1e-3 - (t - lag + transient)
 
     if rate <= 0:
@@ -148,8 +146,7 @@ def trace_text(condition: int) -> str:
         f"# p_d(t) = min({OPEN_KPA:g} kPa, r_p (t_z - t)), t from {EVENT_MS:g} ms,"
         f" r_p = {rate:g} kPa/ms, t_z = {t_z:.6f} ms.",
         "# t_z is chosen such that the traditional model, started at equilibrium, reaches u = 0",
-        f"# at its published closing time, {closes:g} ms. The open pressure difference,"
-        f" {OPEN_KPA:g} kPa, is assumed.",
+        f"# at its published closing time, {closes:g} ms. The open pressure difference, {OPEN_KPA:g} kPa, is assumed.",
         "# Made by make_table_5_traces.py.",
         "t_ms,p_diff_kpa",
     ]

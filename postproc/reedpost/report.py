@@ -32,7 +32,7 @@ figure img { width: 100%; max-width: 28rem; height: auto; }
 pre { background: #f4f4f4; padding: .6rem; font-size: .8rem; white-space: pre-wrap;
       overflow-wrap: anywhere; }
 @media print { body { font-size: 10pt; max-width: none; padding: 0; } h2 { break-before: page; }
-  h2:first-of-type { break-before: auto; } figure, table, h3 { break-inside: avoid; }
+  h2:first-of-type { break-before: auto; } figure, table, h3, details { break-inside: avoid; }
   h3 { break-after: avoid; } .wide { overflow: visible; } }
 """
 

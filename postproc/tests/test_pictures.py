@@ -1,0 +1,76 @@
+"""Pictures: the right ones, with labels and units, the same bytes each time."""
+
+from __future__ import annotations
+
+import pytest
+from matplotlib import pyplot as plt
+from reedpost.figures import draw
+from reedpost.results import read_result
+from reedpost.style import COLUMN_IN, LOOKS, svg_bytes
+
+
+@pytest.fixture(autouse=True)
+def let_go():
+    yield
+    plt.close("all")
+
+
+@pytest.mark.parametrize(
+    "name, pictures",
+    [
+        ("sweep", ["times_against_pressure"]),
+        ("response", ["displacement_histories"]),
+        ("gaps", ["gap_study_squeeze"]),
+        ("table5", ["experiment"]),
+    ],
+)
+def test_which_pictures(name, pictures, request):
+    album = draw(read_result(request.getfixturevalue(name)))
+    assert [picture.name for picture in album.pictures] == pictures
+    assert album.problems == []
+    for picture in album.pictures:
+        assert picture.caption
+        assert picture.figure.get_figwidth() == pytest.approx(COLUMN_IN)
+        assert min(t.get_fontsize() for t in picture.figure.findobj(plt.Text) if t.get_text()) >= 5.0
+
+
+@pytest.mark.parametrize("name", ["sweep", "response", "gaps", "table5"])
+def test_axes_have_units(name, request):
+    figure = draw(read_result(request.getfixturevalue(name))).pictures[0].figure
+    labels = [axes.get_xlabel() for axes in figure.axes if axes.get_xlabel()]
+    labels += [axes.get_ylabel() for axes in figure.axes if axes.get_ylabel()]
+    labels += [figure.get_supylabel()] if figure.get_supylabel() else []
+    assert labels
+    assert all(label.endswith(")") for label in labels)
+
+
+def test_models_differ_without_colour():
+    assert len({look.color for look in LOOKS.values()}) == len(LOOKS)
+    assert len({str(look.line) for look in LOOKS.values()}) == len(LOOKS)
+    assert len({look.marker for look in LOOKS.values()}) == len(LOOKS)
+
+
+def test_same_bytes_each_time(sweep, tmp_path):
+    for name in ("one", "two"):
+        draw(read_result(sweep)).save(tmp_path / name)
+    for ending in ("png", "svg"):
+        one, two = ((tmp_path / d / f"times_against_pressure.{ending}").read_bytes() for d in ("one", "two"))
+        assert one == two
+
+
+def test_published_points_are_drawn(sweep):
+    axes = draw(read_result(sweep)).pictures[0].figure.axes[1]
+    lines = {line.get_label(): line.get_ydata() for line in axes.lines}
+    assert list(lines["finite elements"]) == [4.91, 4.40, 4.13, 3.88, 3.56, 3.42, 3.32, 3.17]
+    assert list(lines["squeeze, published"])[:2] == [6.08, 5.00]
+    assert lines["squeeze, ours"][0] == pytest.approx(6.039, abs=1e-3)
+
+
+def test_what_is_missing_is_named(broken):
+    problems = draw(read_result(broken)).problems
+    assert "no closing_ms to draw at 25 kPa for model squeeze" in problems
+    assert "no fall_ms to draw at 20 kPa for model traditional" in problems
+
+
+def test_svg_carries_no_date(sweep):
+    assert b"<dc:date>" not in svg_bytes(draw(read_result(sweep)).pictures[0].figure)
