@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from reedpost import paper
-from reedpost.gap_study import action_area_mm2, closing_event_ms
+from reedpost.gap_study import closing_event_ms
 from reedpost.results import Result
 from reedpost.studies import (
     EXPERIMENT,
@@ -220,7 +220,7 @@ def gap_picture(variant: Variant, model: str, problems: list[str]) -> Picture:
         lower.plot(time, force, color=color, ls=line)
     case = int(variant.cases[0]) if case is None else case
     event = closing_event_ms(result, case)
-    hole = 1e-3 * action_area_mm2(result, case) * paper.GAP_STUDY_KPA
+    hole = 1e-3 * paper.action_area_mm2(result, case) * paper.GAP_STUDY_KPA
     ramp = float(result.value("pressure.transition_ms", case))
     lower.plot([event - 1.0, event, event + ramp, event + 5.0], [hole, hole, 0.0, 0.0], color=BLACK,
                lw=0.9, label="pressure on the hole, $p_\\mathrm{in} A$")  # fmt: skip

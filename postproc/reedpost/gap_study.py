@@ -28,18 +28,10 @@ COLUMNS = [
 MEASURES = ("steady_mm", "fall_ms", "closing_ms", "undershoot_mm")
 
 
-def action_area_mm2(result: Result, case: int) -> float:
-    """The area the pressure acts on [mm2]; the hole's unless the deck says otherwise."""
-    area = result.value("reed.action_area_mm2", case)
-    if isinstance(area, float) and not math.isnan(area):
-        return area
-    return math.pi / 4 * float(result.value("reed.hole_diameter_mm", case)) ** 2
-
-
 def closing_event_ms(result: Result, case: int) -> float:
     """Start of the closing event of one case [ms]."""
     event = result.value("pressure.event_ms", case)
-    if isinstance(event, float) and not math.isnan(event):
+    if isinstance(event, float):
         return event
     period, ramp = (float(result.value(f"pressure.{k}_ms", case)) for k in ("period", "transition"))
     return 0.5 * (period - ramp)
@@ -54,7 +46,7 @@ def film_exceeds_hole_ms(result: Result, case: int) -> float:
         return math.nan
     time, event = result.time(), closing_event_ms(result, case)
     ramp = (time > event) & (time < event + float(result.value("pressure.transition_ms", case)))
-    hole = 1e-3 * action_area_mm2(result, case) * result.trace("inlet_kpa", case)[ramp]
+    hole = 1e-3 * paper.action_area_mm2(result, case) * result.trace("inlet_kpa", case)[ramp]
     above = np.flatnonzero(result.trace("squeeze_n", case)[ramp] > hole)
     return float(time[ramp][above[0]]) if len(above) else math.nan
 

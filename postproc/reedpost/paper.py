@@ -14,6 +14,7 @@ from importlib import resources
 
 from reedpost.results import Result
 
+AREA_KEY = "reed.action_area_mm2"
 GAP_MM = 0.05  # initial distance of the finite element model
 GAP_STUDY_KPA = 20.0  # inlet pressure of the gap study
 GAP_STUDY_MM = (0.05, 0.10, 0.15, 0.20, 0.25, 0.30)  # Sec. III C: "from 0.05 to 0.30 mm"
@@ -41,7 +42,7 @@ DATA = (
     Datum("reed.density_kg_m3", 8950.0, "Table II"),
     Datum("reed.youngs_modulus_gpa", 110.0, "Table II"),
     Datum("reed.k_a", 0.91, "Table II"),
-    Datum("reed.action_area_mm2", 12.56, "Table II"),
+    Datum(AREA_KEY, 12.56, "Table II"),
     Datum("fluid.density_kg_m3", 875.0, "Table II"),
     Datum("fluid.viscosity_pa_s", 0.0484, "Table II"),
     Datum("film.k_s", 0.0075, "the reading; Table II prints it rounded, 0.008"),
@@ -62,22 +63,29 @@ def same(value: object, reference: float | str) -> bool:
 
 
 def differences(result: Result, case: int) -> list[str]:
-    """How a case's physical data differ from the paper's; one sentence for each key."""
+    """How a case's physical data differ from the paper's; one sentence for each key.
+
+    A key that is not among the effective values has no effect on the case.
+    """
     square = result.value("pressure.kind", case) != "trace"
     found = []
     for datum in DATA:
         value = result.value(datum.key, case)
+        if datum.key == AREA_KEY and value is None:
+            found.append(f"{datum.key} is not given, so the hole's area holds; it is {datum.value:g} in Table II")
         if value is None or (datum.square_only and not square) or same(value, datum.value):
             continue
-        if datum.key == "run.start" and value not in ("rest", "equilibrium"):
-            continue  # not given: the default is the paper's
-        if datum.key == "reed.action_area_mm2" and isinstance(value, float) and math.isnan(value):
-            found.append(f"{datum.key} is not given, the hole's area holds; {datum.value:g} in Table II")
-            continue
-        text = f"{value:g}" if isinstance(value, float) else f"'{value}'"
-        paper = f"{datum.value:g}" if isinstance(datum.value, float) else f"'{datum.value}'"
-        found.append(f"{datum.key} = {text} instead of {paper} ({datum.source})")
+        ours, papers = (f"{v:g}" if isinstance(v, float) else f"'{v}'" for v in (value, datum.value))
+        found.append(f"{datum.key} = {ours} instead of {papers} ({datum.source})")
     return found
+
+
+def action_area_mm2(result: Result, case: int) -> float:
+    """The area the pressure acts on [mm2]; the hole's unless the deck says otherwise."""
+    area = result.value(AREA_KEY, case)
+    if isinstance(area, float):
+        return area
+    return math.pi / 4 * float(result.value("reed.hole_diameter_mm", case)) ** 2
 
 
 @cache

@@ -42,6 +42,8 @@ VERSIONS = (
     ("library_versions", "libraries"),
 )
 
+DERIVED = ("stiffness_n_m", "reed_mass_kg", "added_mass_kg", "added_damping_n_s_m", "reynolds", "wet_frequency_hz")
+
 
 def build_report(results: list[Result]) -> tuple[str, bool]:
     """The page, and whether every result holds all that it should."""
@@ -113,10 +115,26 @@ def _facts(result: Result) -> str:
         ("models", ", ".join(result.models)),
         ("cases", f"{result.count}, of which {failed} failed" if failed else f"{result.count}, all fine"),
         *((key, _span(values)) for key, values in result.swept.items()),
+        *_derived(result),
         *((label, result.attribute(name) or "not recorded") for name, label in VERSIONS),
     ]
     rows = "".join(f"<tr><th>{escape(k)}</th><td>{escape(v)}</td></tr>" for k, v in facts)
     return f'<table class="facts">{rows}</table>'
+
+
+def _derived(result: Result) -> list[tuple[str, str]]:
+    """The models' numbers behind the cases, such as the stiffness, as far as the file holds them."""
+    lines = []
+    for name in DERIVED:
+        if name in result.dataset:
+            values, attributes = result.measure(name), result.dataset[name].attrs
+            known = values[np.isfinite(values)]
+            if len(known):
+                low, high = known.min(), known.max()
+                text = f"{low:.5g}" if np.isclose(low, high, rtol=1e-9) else f"{low:.5g} to {high:.5g}"
+                unit = attributes.get("units", "1")
+                lines.append((attributes.get("long_name", name), text if unit == "1" else f"{text} {unit}"))
+    return lines
 
 
 def _span(values: np.ndarray) -> str:

@@ -43,13 +43,16 @@ class Variant:
         return np.unique(values[~np.isnan(values)])
 
     def find(self, model: str, inlet_kpa: float, gap_mm: float) -> int | None:
-        """The case of `model` at a pressure and a gap; None when there is none."""
-        for case in self.cases_of(model):
-            inlet = self.result.value("pressure.inlet_kpa", case)
-            gap = self.result.value("film.gap_mm", case)
-            if np.allclose([inlet, gap], [inlet_kpa, gap_mm], rtol=1e-6, atol=0.0):
-                return int(case)
-        return None
+        """The case of `model` at a pressure and a gap; None when there is none.
+
+        A result whose models have no film has no gap either: every gap is its own then.
+        """
+        cases = self.cases_of(model)
+        inlet = self.result.values("pressure.inlet_kpa")[cases]
+        gap = self.result.values("film.gap_mm")[cases]
+        near = np.isclose(inlet, inlet_kpa, rtol=1e-6, atol=0.0)
+        near &= np.isnan(gap) | np.isclose(gap, gap_mm, rtol=1e-6, atol=0.0)
+        return int(cases[near][0]) if near.any() else None
 
 
 def variants(result: Result) -> list[Variant]:
