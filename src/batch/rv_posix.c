@@ -1,0 +1,294 @@
+/* The few things of the operating system that Fortran 2008 cannot say: folders, renames, fsync, locks,
+ * signals, clocks. Every function that can fail returns 0 or an errno; nothing prints, nothing exits. */
+#define _GNU_SOURCE
+
+#include "rv_posix.h"
+
+#include <dirent.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <signal.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/file.h>
+#include <sys/ioctl.h>
+#include <sys/stat.h>
+#include <sys/statvfs.h>
+#include <time.h>
+#include <unistd.h>
+
+/* A large write is cut so that no single call passes what Linux takes at once. */
+#define LARGEST_CALL ((size_t)1 << 30)
+
+static volatile sig_atomic_t signals_seen = 0;
+
+static void note_signal(int number)
+{
+   (void)number;
+   signals_seen = 1;
+}
+
+/* SIGINT and SIGTERM are noted once; a second one has its usual effect, so nobody is locked in. */
+int rv_posix_catch_signals(void)
+{
+   struct sigaction action;
+
+   memset(&action, 0, sizeof action);
+   action.sa_handler = note_signal;
+   action.sa_flags = (int)(SA_RESTART | SA_RESETHAND);
+   sigemptyset(&action.sa_mask);
+   if (sigaction(SIGINT, &action, NULL) != 0) return errno;
+   if (sigaction(SIGTERM, &action, NULL) != 0) return errno;
+   return 0;
+}
+
+int rv_posix_signal_seen(void)
+{
+   return signals_seen != 0;
+}
+
+void rv_posix_reason(int number, char *buffer, size_t size)
+{
+   char room[256];
+
+   /* the GNU kind, which may point to its own text */
+   snprintf(buffer, size, "%s", strerror_r(number, room, sizeof room));
+}
+
+int rv_posix_make_folder(const char *path)
+{
+   return mkdir(path, 0777) == 0 ? 0 : errno;
+}
+
+int rv_posix_remove_folder(const char *path)
+{
+   return rmdir(path) == 0 ? 0 : errno;
+}
+
+int rv_posix_remove_file(const char *path)
+{
+   return unlink(path) == 0 ? 0 : errno;
+}
+
+int rv_posix_rename(const char *from, const char *to)
+{
+   return rename(from, to) == 0 ? 0 : errno;
+}
+
+/* kind: 0 nothing there, 1 file, 2 folder, 3 something else */
+int rv_posix_kind(const char *path, int *kind, int64_t *size)
+{
+   struct stat facts;
+
+   *kind = 0;
+   *size = 0;
+   if (stat(path, &facts) != 0) return errno == ENOENT || errno == ENOTDIR ? 0 : errno;
+   *kind = S_ISREG(facts.st_mode) ? 1 : S_ISDIR(facts.st_mode) ? 2 : 3;
+   *size = (int64_t)facts.st_size;
+   return 0;
+}
+
+int rv_posix_free_bytes(const char *path, int64_t *bytes)
+{
+   struct statvfs facts;
+
+   *bytes = 0;
+   if (statvfs(path, &facts) != 0) return errno;
+   *bytes = (int64_t)facts.f_bavail * (int64_t)facts.f_frsize;
+   return 0;
+}
+
+/* Is there room for a file of so many bytes? Says so by taking and giving back the room: that asks quotas too. */
+int rv_posix_reserve(const char *path, int64_t bytes)
+{
+   int failure = 0;
+   int fd = open(path, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+
+   if (fd < 0) return errno;
+   if (fallocate(fd, 0, 0, (off_t)bytes) != 0) failure = errno;
+   close(fd);
+   unlink(path);
+   /* other failures: this file system cannot say beforehand */
+   return failure == ENOSPC || failure == EDQUOT || failure == EFBIG ? failure : 0;
+}
+
+/* A rename is safe on disk only when the folder that holds the name is. */
+int rv_posix_sync_folder(const char *path)
+{
+   int failure = 0;
+   int fd = open(path, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+
+   if (fd < 0) return errno;
+   /* EINVAL: a file system without fsync of folders, where nothing more can be done */
+   if (fsync(fd) != 0 && errno != EINVAL) failure = errno;
+   close(fd);
+   return failure;
+}
+
+/* mode: 0 read, 1 create or empty, 2 append */
+int rv_posix_open(const char *path, int mode, int *fd)
+{
+   static const int flags[] = {O_RDONLY, O_WRONLY | O_CREAT | O_TRUNC, O_WRONLY | O_CREAT | O_APPEND};
+
+   *fd = open(path, flags[mode] | O_CLOEXEC, 0666);
+   return *fd < 0 ? errno : 0;
+}
+
+int rv_posix_write(int fd, const void *data, size_t size)
+{
+   const char *next = data;
+
+   while (size > 0) {
+      ssize_t done = write(fd, next, size < LARGEST_CALL ? size : LARGEST_CALL);
+      if (done < 0) {
+         if (errno == EINTR) continue;
+         return errno;
+      }
+      next += done;
+      size -= (size_t)done;
+   }
+   return 0;
+}
+
+/* got < size only at the end of the file */
+int rv_posix_read(int fd, void *data, size_t size, size_t *got)
+{
+   char *next = data;
+
+   *got = 0;
+   while (*got < size) {
+      size_t left = size - *got;
+      ssize_t done = read(fd, next + *got, left < LARGEST_CALL ? left : LARGEST_CALL);
+      if (done < 0) {
+         if (errno == EINTR) continue;
+         return errno;
+      }
+      if (done == 0) return 0;
+      *got += (size_t)done;
+   }
+   return 0;
+}
+
+int rv_posix_sync(int fd)
+{
+   /* EINVAL, ENOTSUP: pipes and devices, which have nothing to bring to a disk */
+   if (fsync(fd) == 0 || errno == EINVAL || errno == ENOTSUP) return 0;
+   return errno;
+}
+
+int rv_posix_close(int fd)
+{
+   return close(fd) == 0 ? 0 : errno;
+}
+
+/* state: 0 ours, 1 another process holds it, 2 this file system has no locks.
+ * The holder may remove the file when it ends: a lock on a file that is no longer there is taken anew.
+ * `holder` goes into the file, for the message of whoever is refused. */
+int rv_posix_lock(const char *path, const char *holder, int *fd, int *state)
+{
+   for (;;) {
+      struct stat held, named;
+      int failure;
+
+      *state = 0;
+      *fd = open(path, O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+      if (*fd < 0) return errno;
+      if (flock(*fd, LOCK_EX | LOCK_NB) != 0) {
+         failure = errno;
+         if (failure == EINTR) {
+            close(*fd);
+            continue;
+         }
+         *state = failure == EWOULDBLOCK ? 1 : 2;
+         if (*state == 2 && failure != ENOLCK && failure != ENOSYS && failure != EOPNOTSUPP) {
+            close(*fd);
+            return failure;
+         }
+         if (*state == 1) close(*fd);
+         return 0;
+      }
+      if (fstat(*fd, &held) == 0 && stat(path, &named) == 0 && held.st_ino == named.st_ino &&
+          held.st_dev == named.st_dev) {
+         /* without a name in it the lock is as good: a full disk is no reason to fail here */
+         if (ftruncate(*fd, 0) == 0) (void)!write(*fd, holder, strlen(holder));
+         return 0;
+      }
+      close(*fd);
+   }
+}
+
+int rv_posix_list_open(const char *path, void **list)
+{
+   *list = opendir(path);
+   return *list == NULL ? errno : 0;
+}
+
+/* 1 and a name, or 0 at the end; "." and ".." are left out */
+int rv_posix_list_next(void *list, char *name, size_t size)
+{
+   struct dirent *entry;
+
+   while ((entry = readdir(list)) != NULL) {
+      if (strcmp(entry->d_name, ".") == 0 || strcmp(entry->d_name, "..") == 0) continue;
+      snprintf(name, size, "%s", entry->d_name);
+      return 1;
+   }
+   return 0;
+}
+
+void rv_posix_list_close(void *list)
+{
+   closedir(list);
+}
+
+int rv_posix_is_terminal(int fd)
+{
+   return isatty(fd) == 1;
+}
+
+/* columns of the terminal, 0 when it has none */
+int rv_posix_terminal_width(int fd)
+{
+   struct winsize window;
+
+   return ioctl(fd, TIOCGWINSZ, &window) == 0 ? window.ws_col : 0;
+}
+
+double rv_posix_seconds(void)
+{
+   struct timespec now;
+
+   clock_gettime(CLOCK_MONOTONIC, &now);
+   return (double)now.tv_sec + 1.0e-9 * (double)now.tv_nsec;
+}
+
+/* ISO 8601 in UTC */
+void rv_posix_date(char *buffer, size_t size)
+{
+   struct tm parts;
+   time_t now = time(NULL);
+
+   if (gmtime_r(&now, &parts) == NULL || strftime(buffer, size, "%Y-%m-%dT%H:%M:%SZ", &parts) == 0)
+      snprintf(buffer, size, "unknown");
+}
+
+void rv_posix_host(char *buffer, size_t size)
+{
+   if (gethostname(buffer, size) != 0) snprintf(buffer, size, "unknown");
+   buffer[size - 1] = '\0';
+}
+
+int rv_posix_process(void)
+{
+   return (int)getpid();
+}
+
+/* %g with so many digits; a host program's locale may have a decimal comma, a CSV file may not. */
+void rv_posix_number(double x, int digits, char *buffer, size_t size)
+{
+   char *comma;
+
+   snprintf(buffer, size, "%.*g", digits, x);
+   comma = strchr(buffer, ',');
+   if (comma != NULL) *comma = '.';
+}

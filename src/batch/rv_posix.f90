@@ -1,0 +1,357 @@
+!> What the operating system does for a run: folders, renames, locks, signals, clocks. Files are in rv_file.
+module rv_posix
+   use, intrinsic :: iso_c_binding, only : c_char, c_double, c_int, c_int64_t, c_null_char, c_null_ptr, c_ptr, &
+      & c_size_t
+   use rv_kinds, only : wp, i8
+   use rv_error, only : error_type, fail, rv_io
+   use rv_text, only : text_type, to_text
+   implicit none
+   private
+   public :: path_kind, path_none, path_file, path_folder, path_other, free_bytes, check_room
+   public :: make_folder, remove_folder, remove_file, rename_path, sync_folder, list_folder
+   public :: lock_file, lock_ours, lock_held, lock_none
+   public :: catch_signals, signal_seen, is_terminal, terminal_width
+   public :: seconds, utc_date, host_name, process_number, number_text, reason_text, c_text
+
+   integer, parameter :: path_none = 0    !! nothing of that name
+   integer, parameter :: path_file = 1
+   integer, parameter :: path_folder = 2
+   integer, parameter :: path_other = 3   !! a device, a pipe, ...
+
+   integer, parameter :: lock_ours = 0
+   integer, parameter :: lock_held = 1    !! by another process
+   integer, parameter :: lock_none = 2    !! this file system has no locks
+
+   integer, parameter :: longest_text = 4096  !! longest path or name taken from C
+
+   interface
+      integer(c_int) function c_catch_signals() bind(C, name="rv_posix_catch_signals")
+         import :: c_int
+      end function c_catch_signals
+      integer(c_int) function c_signal_seen() bind(C, name="rv_posix_signal_seen")
+         import :: c_int
+      end function c_signal_seen
+      subroutine c_reason(number, buffer, size) bind(C, name="rv_posix_reason")
+         import :: c_int, c_char, c_size_t
+         integer(c_int), value :: number
+         character(kind=c_char), intent(out) :: buffer(*)
+         integer(c_size_t), value :: size
+      end subroutine c_reason
+      integer(c_int) function c_make_folder(path) bind(C, name="rv_posix_make_folder")
+         import :: c_int, c_char
+         character(kind=c_char), intent(in) :: path(*)
+      end function c_make_folder
+      integer(c_int) function c_remove_folder(path) bind(C, name="rv_posix_remove_folder")
+         import :: c_int, c_char
+         character(kind=c_char), intent(in) :: path(*)
+      end function c_remove_folder
+      integer(c_int) function c_remove_file(path) bind(C, name="rv_posix_remove_file")
+         import :: c_int, c_char
+         character(kind=c_char), intent(in) :: path(*)
+      end function c_remove_file
+      integer(c_int) function c_rename(from, to) bind(C, name="rv_posix_rename")
+         import :: c_int, c_char
+         character(kind=c_char), intent(in) :: from(*), to(*)
+      end function c_rename
+      integer(c_int) function c_kind(path, kind, size) bind(C, name="rv_posix_kind")
+         import :: c_int, c_char, c_int64_t
+         character(kind=c_char), intent(in) :: path(*)
+         integer(c_int), intent(out) :: kind
+         integer(c_int64_t), intent(out) :: size
+      end function c_kind
+      integer(c_int) function c_free_bytes(path, bytes) bind(C, name="rv_posix_free_bytes")
+         import :: c_int, c_char, c_int64_t
+         character(kind=c_char), intent(in) :: path(*)
+         integer(c_int64_t), intent(out) :: bytes
+      end function c_free_bytes
+      integer(c_int) function c_reserve(path, bytes) bind(C, name="rv_posix_reserve")
+         import :: c_int, c_char, c_int64_t
+         character(kind=c_char), intent(in) :: path(*)
+         integer(c_int64_t), value :: bytes
+      end function c_reserve
+      integer(c_int) function c_sync_folder(path) bind(C, name="rv_posix_sync_folder")
+         import :: c_int, c_char
+         character(kind=c_char), intent(in) :: path(*)
+      end function c_sync_folder
+      integer(c_int) function c_lock(path, holder, fd, state) bind(C, name="rv_posix_lock")
+         import :: c_int, c_char
+         character(kind=c_char), intent(in) :: path(*), holder(*)
+         integer(c_int), intent(out) :: fd, state
+      end function c_lock
+      integer(c_int) function c_list_open(path, list) bind(C, name="rv_posix_list_open")
+         import :: c_int, c_char, c_ptr
+         character(kind=c_char), intent(in) :: path(*)
+         type(c_ptr), intent(out) :: list
+      end function c_list_open
+      integer(c_int) function c_list_next(list, name, size) bind(C, name="rv_posix_list_next")
+         import :: c_int, c_char, c_ptr, c_size_t
+         type(c_ptr), value :: list
+         character(kind=c_char), intent(out) :: name(*)
+         integer(c_size_t), value :: size
+      end function c_list_next
+      subroutine c_list_close(list) bind(C, name="rv_posix_list_close")
+         import :: c_ptr
+         type(c_ptr), value :: list
+      end subroutine c_list_close
+      integer(c_int) function c_is_terminal(fd) bind(C, name="rv_posix_is_terminal")
+         import :: c_int
+         integer(c_int), value :: fd
+      end function c_is_terminal
+      integer(c_int) function c_terminal_width(fd) bind(C, name="rv_posix_terminal_width")
+         import :: c_int
+         integer(c_int), value :: fd
+      end function c_terminal_width
+      real(c_double) function c_seconds() bind(C, name="rv_posix_seconds")
+         import :: c_double
+      end function c_seconds
+      subroutine c_date(buffer, size) bind(C, name="rv_posix_date")
+         import :: c_char, c_size_t
+         character(kind=c_char), intent(out) :: buffer(*)
+         integer(c_size_t), value :: size
+      end subroutine c_date
+      subroutine c_host(buffer, size) bind(C, name="rv_posix_host")
+         import :: c_char, c_size_t
+         character(kind=c_char), intent(out) :: buffer(*)
+         integer(c_size_t), value :: size
+      end subroutine c_host
+      integer(c_int) function c_process() bind(C, name="rv_posix_process")
+         import :: c_int
+      end function c_process
+      subroutine c_number(x, digits, buffer, size) bind(C, name="rv_posix_number")
+         import :: c_double, c_int, c_char, c_size_t
+         real(c_double), value :: x
+         integer(c_int), value :: digits
+         character(kind=c_char), intent(out) :: buffer(*)
+         integer(c_size_t), value :: size
+      end subroutine c_number
+   end interface
+
+contains
+
+   !> What kind of thing `path` is (one of path_*), and its size in bytes.
+   subroutine path_kind(path, kind, error, size)
+      character(len=*), intent(in) :: path
+      integer, intent(out) :: kind
+      type(error_type), allocatable, intent(out) :: error
+      integer(i8), optional, intent(out) :: size  !! [byte]
+      integer(c_int) :: found
+      integer(c_int64_t) :: bytes
+
+      call check(c_kind(c_text(path), found, bytes), "look at '"//path//"'", error)
+      kind = found
+      if (present(size)) size = bytes
+   end subroutine path_kind
+
+   !> Bytes free for us on the file system of `path`; -1 where it will not say.
+   function free_bytes(path) result(bytes)
+      character(len=*), intent(in) :: path
+      integer(i8) :: bytes                        !! [byte]
+
+      if (c_free_bytes(c_text(path), bytes) /= 0) bytes = -1
+   end function free_bytes
+
+   !> Fail if there is no room for a file `path` of so many bytes; no file is left.
+   subroutine check_room(path, bytes, error)
+      character(len=*), intent(in) :: path
+      integer(i8), intent(in) :: bytes            !! [byte]
+      type(error_type), allocatable, intent(out) :: error
+
+      call check(c_reserve(c_text(path), bytes), "write the "//to_text(bytes/1048576 + 1)//" MiB of '"//path//"'", error)
+   end subroutine check_room
+
+   !> Make one folder; one that exists is a failure.
+   subroutine make_folder(path, error)
+      character(len=*), intent(in) :: path
+      type(error_type), allocatable, intent(out) :: error
+
+      call check(c_make_folder(c_text(path)), "make the folder '"//path//"'", error)
+   end subroutine make_folder
+
+   !> Remove one empty folder.
+   subroutine remove_folder(path, error)
+      character(len=*), intent(in) :: path
+      type(error_type), allocatable, intent(out) :: error
+
+      call check(c_remove_folder(c_text(path)), "remove the folder '"//path//"'", error)
+   end subroutine remove_folder
+
+   subroutine remove_file(path, error)
+      character(len=*), intent(in) :: path
+      type(error_type), allocatable, intent(out) :: error
+
+      call check(c_remove_file(c_text(path)), "remove '"//path//"'", error)
+   end subroutine remove_file
+
+   !> Give a file its final name in one step; a file of that name is replaced.
+   subroutine rename_path(from, to, error)
+      character(len=*), intent(in) :: from, to
+      type(error_type), allocatable, intent(out) :: error
+
+      call check(c_rename(c_text(from), c_text(to)), "rename '"//from//"' to '"//to//"'", error)
+   end subroutine rename_path
+
+   !> Bring the names in a folder to the disk.
+   subroutine sync_folder(path, error)
+      character(len=*), intent(in) :: path
+      type(error_type), allocatable, intent(out) :: error
+
+      call check(c_sync_folder(c_text(path)), "write the folder '"//path//"' to disk", error)
+   end subroutine sync_folder
+
+   !> The names in a folder, in no particular order.
+   subroutine list_folder(path, name, error)
+      character(len=*), intent(in) :: path
+      type(text_type), allocatable, intent(out) :: name(:)
+      type(error_type), allocatable, intent(out) :: error
+      type(text_type), allocatable :: longer(:)
+      character(kind=c_char) :: buffer(longest_text)
+      type(c_ptr) :: list
+      integer :: n
+
+      allocate(name(0))
+      list = c_null_ptr
+      call check(c_list_open(c_text(path), list), "list the folder '"//path//"'", error)
+      if (allocated(error)) return
+      allocate(longer(16))
+      n = 0
+      do while (c_list_next(list, buffer, size(buffer, kind=c_size_t)) == 1)
+         n = n + 1
+         if (n > size(longer)) longer = [longer, longer]
+         longer(n)%s = from_c(buffer)
+      end do
+      call c_list_close(list)
+      name = longer(:n)
+   end subroutine list_folder
+
+   !> Take the lock of a lock file, which is made if need be. The lock ends with close of `fd` or with the process.
+   subroutine lock_file(path, holder, fd, state, error)
+      character(len=*), intent(in) :: path
+      character(len=*), intent(in) :: holder      !! written into the file, for whoever is refused
+      integer(c_int), intent(out) :: fd           !! open unless the lock is held by another
+      integer, intent(out) :: state               !! one of lock_*
+      type(error_type), allocatable, intent(out) :: error
+      integer(c_int) :: found
+
+      call check(c_lock(c_text(path), c_text(holder), fd, found), "lock '"//path//"'", error)
+      state = found
+   end subroutine lock_file
+
+   !> From now on SIGINT and SIGTERM are only noted, once; for a program, not for a library's caller.
+   subroutine catch_signals(error)
+      type(error_type), allocatable, intent(out) :: error
+
+      call check(c_catch_signals(), "catch signals", error)
+   end subroutine catch_signals
+
+   function signal_seen() result(seen)
+      logical :: seen
+
+      seen = c_signal_seen() /= 0
+   end function signal_seen
+
+   !> Is file descriptor `fd` (1 output, 2 messages) a terminal?
+   function is_terminal(fd) result(yes)
+      integer, intent(in) :: fd
+      logical :: yes
+
+      yes = c_is_terminal(int(fd, c_int)) /= 0
+   end function is_terminal
+
+   !> Columns of the terminal behind `fd`; 0 where there is none.
+   function terminal_width(fd) result(columns)
+      integer, intent(in) :: fd
+      integer :: columns
+
+      columns = c_terminal_width(int(fd, c_int))
+   end function terminal_width
+
+   !> Seconds of a clock that never jumps; only differences mean something.
+   function seconds() result(t)
+      real(wp) :: t                               !! [s]
+
+      t = c_seconds()
+   end function seconds
+
+   !> Now, as 2024-05-31T18:00:00Z.
+   function utc_date() result(text)
+      character(len=:), allocatable :: text
+      character(kind=c_char) :: buffer(64)
+
+      call c_date(buffer, size(buffer, kind=c_size_t))
+      text = from_c(buffer)
+   end function utc_date
+
+   function host_name() result(text)
+      character(len=:), allocatable :: text
+      character(kind=c_char) :: buffer(256)
+
+      call c_host(buffer, size(buffer, kind=c_size_t))
+      text = from_c(buffer)
+   end function host_name
+
+   function process_number() result(number)
+      integer :: number
+
+      number = c_process()
+   end function process_number
+
+   !> A number with so many significant digits, as %g of C; quicker than to_text, for millions of them.
+   function number_text(x, digits) result(text)
+      real(wp), intent(in) :: x
+      integer, intent(in) :: digits
+      character(len=:), allocatable :: text
+      character(kind=c_char) :: buffer(40)
+
+      call c_number(x, int(digits, c_int), buffer, size(buffer, kind=c_size_t))
+      text = from_c(buffer)
+   end function number_text
+
+   !> The system's own sentence for an error number.
+   function reason_text(number) result(text)
+      integer(c_int), intent(in) :: number
+      character(len=:), allocatable :: text
+      character(kind=c_char) :: buffer(256)
+
+      call c_reason(number, buffer, size(buffer, kind=c_size_t))
+      text = from_c(buffer)
+      if (len(text) == 0) text = "error "//to_text(int(number))
+   end function reason_text
+
+   !> `text` as C wants it. A zero byte inside would cut the name short: it becomes '?'.
+   pure function c_text(text) result(copy)
+      character(len=*), intent(in) :: text
+      character(kind=c_char) :: copy(len(text) + 1)
+      integer :: i
+
+      do i = 1, len(text)
+         copy(i) = text(i:i)
+         if (copy(i) == c_null_char) copy(i) = "?"
+      end do
+      copy(len(text) + 1) = c_null_char
+   end function c_text
+
+   pure function from_c(buffer) result(text)
+      character(kind=c_char), intent(in) :: buffer(:)
+      character(len=:), allocatable :: text
+      integer :: n, i
+
+      n = 0
+      do while (n < size(buffer))
+         if (buffer(n + 1) == c_null_char) exit
+         n = n + 1
+      end do
+      allocate(character(len=n) :: text)
+      do i = 1, n
+         text(i:i) = buffer(i)
+      end do
+   end function from_c
+
+   subroutine check(number, what, error)
+      integer(c_int), intent(in) :: number
+      character(len=*), intent(in) :: what
+      type(error_type), allocatable, intent(out) :: error
+
+      if (number /= 0) call fail(error, rv_io, "cannot "//what//": "//reason_text(number))
+   end subroutine check
+
+end module rv_posix

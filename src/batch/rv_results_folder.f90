@@ -1,0 +1,227 @@
+!> The folder of a run: what lies where, who works in it, whether it holds results or an unfinished run.
+!>
+!>     results.nc  summary.csv  run.log      what a run leaves
+!>     run.lock                              while one works here; says who
+!>     parts/manifest  parts/block_*.part    finished blocks of a run whose results are not in place yet
+!>     parts.old/                            parts being removed
+module rv_results_folder
+   use, intrinsic :: iso_c_binding, only : c_int
+   use rv_error, only : error_type, fail, rv_bad_input, rv_io
+   use rv_text, only : text_type, to_text
+   use rv_posix, only : host_name, list_folder, lock_file, lock_held, lock_none, make_folder, path_folder, path_kind, &
+      & path_none, process_number, remove_file, remove_folder, rename_path, sync_folder, utc_date
+   use rv_file, only : close_descriptor, new_suffix, read_whole_file
+   use rv_parts, only : is_part_name
+   implicit none
+   private
+   public :: results_folder, netcdf_name, csv_name, log_name, manifest_name
+
+   character(len=*), parameter :: netcdf_name = "results.nc"
+   character(len=*), parameter :: csv_name = "summary.csv"
+   character(len=*), parameter :: log_name = "run.log"
+   character(len=*), parameter :: manifest_name = "manifest"
+   character(len=*), parameter :: lock_name = "run.lock"
+   character(len=*), parameter :: parts_name = "parts"
+   character(len=*), parameter :: old_parts_name = "parts.old"
+
+   !> A folder in use by this process: open, then close on every path.
+   type :: results_folder
+      character(len=:), allocatable :: path    !! without a slash at the end
+      character(len=:), allocatable :: parts   !! folder of the parts; it need not be there
+      logical :: has_lock = .true.             !! false: this file system has no locks
+      integer(c_int), private :: lock = -1
+      logical, private :: made_here = .false.
+   contains
+      procedure :: open => open_folder
+      procedure :: close => close_folder
+      procedure :: file
+      procedure :: has_results
+      procedure :: has_parts
+      procedure :: make_parts
+      procedure :: discard_parts
+      procedure, private :: find_or_make
+      procedure, private :: take_lock
+   end type results_folder
+
+contains
+
+   !> Take the folder for this process alone, making it if asked to.
+   subroutine open_folder(self, path, may_make, error)
+      class(results_folder), intent(inout) :: self
+      character(len=*), intent(in) :: path
+      logical, intent(in) :: may_make
+      type(error_type), allocatable, intent(out) :: error
+
+      self%path = without_slash(path)
+      self%parts = self%path//"/"//parts_name
+      self%lock = -1
+      self%made_here = .false.
+      call self%find_or_make(may_make, error)
+      if (allocated(error)) return
+      call self%take_lock(error)
+      if (.not. allocated(error)) call empty_folder(self%path//"/"//old_parts_name, error)
+      if (allocated(error)) call self%close()
+   end subroutine open_folder
+
+   !> Let others work here. A folder that this run made and left empty goes, too.
+   subroutine close_folder(self)
+      class(results_folder), intent(inout) :: self
+      type(error_type), allocatable :: ignored
+
+      if (self%lock >= 0) call remove_file(self%file(lock_name), ignored)
+      call close_descriptor(self%lock)
+      if (self%made_here) call remove_folder(self%path, ignored)
+   end subroutine close_folder
+
+   !> The path of a file of that name in the folder.
+   pure function file(self, name) result(path)
+      class(results_folder), intent(in) :: self
+      character(len=*), intent(in) :: name
+      character(len=:), allocatable :: path
+
+      path = self%path//"/"//name
+   end function file
+
+   !> Is there a finished result, or half of one?
+   subroutine has_results(self, yes, error)
+      class(results_folder), intent(in) :: self
+      logical, intent(out) :: yes
+      type(error_type), allocatable, intent(out) :: error
+      integer :: netcdf, csv
+
+      yes = .false.
+      call path_kind(self%file(netcdf_name), netcdf, error)
+      if (allocated(error)) return
+      call path_kind(self%file(csv_name), csv, error)
+      yes = netcdf /= path_none .or. csv /= path_none
+   end subroutine has_results
+
+   !> Is there an unfinished run?
+   subroutine has_parts(self, yes, error)
+      class(results_folder), intent(in) :: self
+      logical, intent(out) :: yes
+      type(error_type), allocatable, intent(out) :: error
+      type(text_type), allocatable :: name(:)
+      integer :: kind, i
+
+      yes = .false.
+      call path_kind(self%parts, kind, error)
+      if (allocated(error) .or. kind /= path_folder) return
+      call list_folder(self%parts, name, error)
+      do i = 1, size(name)
+         yes = yes .or. name(i)%s == manifest_name .or. is_part_name(name(i)%s)
+      end do
+   end subroutine has_parts
+
+   !> Make the folder of the parts, if it is not there.
+   subroutine make_parts(self, error)
+      class(results_folder), intent(in) :: self
+      type(error_type), allocatable, intent(out) :: error
+      integer :: kind
+
+      call path_kind(self%parts, kind, error)
+      if (allocated(error)) return
+      if (kind == path_none) call make_folder(self%parts, error)
+      if (allocated(error)) return
+      call sync_folder(self%path, error)
+   end subroutine make_parts
+
+   !> Remove all parts. They vanish in one step, so that a killed removal leaves no half of a run.
+   subroutine discard_parts(self, error)
+      class(results_folder), intent(in) :: self
+      type(error_type), allocatable, intent(out) :: error
+      integer :: kind
+
+      call path_kind(self%parts, kind, error)
+      if (allocated(error) .or. kind == path_none) return
+      call rename_path(self%parts, self%file(old_parts_name), error)
+      if (.not. allocated(error)) call sync_folder(self%path, error)
+      if (.not. allocated(error)) call empty_folder(self%file(old_parts_name), error)
+   end subroutine discard_parts
+
+   subroutine find_or_make(self, may_make, error)
+      class(results_folder), intent(inout) :: self
+      logical, intent(in) :: may_make
+      type(error_type), allocatable, intent(out) :: error
+      character(len=:), allocatable :: parent
+      integer :: kind, parent_kind
+
+      parent = parent_of(self%path)
+      call path_kind(self%path, kind, error)
+      if (.not. allocated(error)) call path_kind(parent, parent_kind, error)
+      if (allocated(error) .or. kind == path_folder) return
+      if (kind /= path_none) then
+         call fail(error, rv_io, "'"//self%path//"' is a file, and the results need a folder")
+      else if (.not. may_make) then
+         call fail(error, rv_io, "there is no folder '"//self%path//"'")
+      else if (parent_kind == path_none) then
+         call fail(error, rv_io, "cannot make the folder '"//self%path//"': there is no folder '"//parent//"'")
+      else
+         call make_folder(self%path, error)
+         self%made_here = .not. allocated(error)
+      end if
+   end subroutine find_or_make
+
+   subroutine take_lock(self, error)
+      class(results_folder), intent(inout) :: self
+      type(error_type), allocatable, intent(out) :: error
+      type(error_type), allocatable :: ignored
+      character(len=:), allocatable :: holder
+      integer :: state
+      logical :: found
+
+      call lock_file(self%file(lock_name), "process "//to_text(process_number())//" on "//host_name() &
+         & //" since "//utc_date(), self%lock, state, error)
+      if (allocated(error)) return
+      self%has_lock = state /= lock_none
+      if (state /= lock_held) return
+      self%lock = -1
+      call read_whole_file(self%file(lock_name), holder, found, ignored)
+      call fail(error, rv_io, "another run is at work in '"//self%path//"' ("//trim(holder) &
+         & //"): wait until it ends, or choose another folder")
+   end subroutine take_lock
+
+   !> Remove a folder with the parts in it; harmless when there is none. What is not ours stays, and so does the folder.
+   subroutine empty_folder(path, error)
+      character(len=*), intent(in) :: path
+      type(error_type), allocatable, intent(out) :: error
+      type(error_type), allocatable :: ignored
+      type(text_type), allocatable :: name(:)
+      integer :: kind, i
+
+      call path_kind(path, kind, error)
+      if (allocated(error) .or. kind /= path_folder) return
+      call list_folder(path, name, error)
+      if (allocated(error)) return
+      do i = 1, size(name)
+         if (.not. (is_part_name(name(i)%s) .or. name(i)%s == manifest_name &
+            & .or. name(i)%s == manifest_name//new_suffix)) cycle
+         call remove_file(path//"/"//name(i)%s, error)
+         if (allocated(error)) return
+      end do
+      call remove_folder(path, ignored)
+   end subroutine empty_folder
+
+   pure function without_slash(path) result(bare)
+      character(len=*), intent(in) :: path
+      character(len=:), allocatable :: bare
+      integer :: n
+
+      n = len(path)
+      do while (n > 1)
+         if (path(n:n) /= "/") exit
+         n = n - 1
+      end do
+      bare = path(:n)
+   end function without_slash
+
+   pure function parent_of(path) result(parent)
+      character(len=*), intent(in) :: path
+      character(len=:), allocatable :: parent
+
+      parent = path(:index(path, "/", back=.true.))
+      if (parent == "") parent = "."
+      if (parent /= "/") parent = without_slash(parent)
+   end function parent_of
+
+end module rv_results_folder

@@ -1,0 +1,407 @@
+!> results.nc: written case block by case block in constant memory, from nothing but the manifest and the parts.
+!>
+!> NetCDF-4 with a fixed case dimension, so that the file is the same bytes whoever computed the parts and when.
+!> Variables are chunked along the cases; NaN is the fill value, so what did not happen reads as missing.
+module rv_results_netcdf
+   use, intrinsic :: ieee_arithmetic, only : ieee_quiet_nan, ieee_value
+   use, intrinsic :: iso_fortran_env, only : int8
+   use netcdf, only : nf90_byte, nf90_char, nf90_clobber, nf90_close, nf90_create, nf90_def_dim, nf90_def_var, &
+      & nf90_def_var_fill, nf90_double, nf90_enddef, nf90_global, nf90_int, nf90_netcdf4, nf90_noerr, &
+      & nf90_put_att, nf90_put_var, nf90_strerror
+   use rv_kinds, only : wp, i8
+   use rv_error, only : error_type, fail, rv_io
+   use rv_text, only : text_type
+   use rv_block, only : column_type, fact_columns, measure_columns, n_facts, n_measures, n_traces, &
+      & trace_columns
+   use rv_status, only : n_statuses, n_warnings, status_name, warning_name
+   use rv_manifest, only : input_type, kind_choice, kind_text, manifest_type
+   use rv_parts, only : part_type
+   use rv_version, only : code_version, compiler_text, library_text
+   implicit none
+   private
+   public :: netcdf_writer, expected_size
+
+   integer, parameter :: message_length = 200   !! longer messages are cut
+
+   integer, parameter :: chunk_cases = 16384           !! cases in one chunk of a variable without time
+   integer, parameter :: chunk_messages = 1024
+   integer, parameter :: chunk_bytes = 1048576         !! of a chunk with time, about
+   integer, parameter :: cache_bytes = 2097152         !! for each variable; the library's own default may be 16 MiB
+   integer, parameter :: fixed_bytes = 131072          !! of an empty file, about
+   integer, parameter :: bytes_real = storage_size(1.0_wp)/8
+
+   !> A results file being written. create, put for every part in the order of the blocks, close.
+   type :: netcdf_writer
+      private
+      character(len=:), allocatable :: path
+      logical :: is_open = .false.
+      integer :: file = 0
+      integer :: case_dim = 0
+      integer :: case_var = 0
+      integer :: time_var = 0
+      type(input_type), allocatable :: input(:)
+      integer, allocatable :: input_var(:)
+      type(column_type) :: measure(n_measures), fact(n_facts), trace(n_traces)
+      integer :: measure_var(n_measures) = 0
+      integer :: fact_var(n_facts) = 0
+      integer :: trace_var(n_traces) = 0
+      integer :: status_var = 0, warnings_var = 0, message_var = 0
+      integer :: times = 0
+      integer :: flag = nf90_noerr               !! of the first call that failed
+      character(len=:), allocatable :: at         !! what that call was about
+   contains
+      procedure :: create
+      procedure :: put
+      procedure :: close => close_file
+      procedure, private :: note
+      procedure, private :: give_up
+      procedure, private :: define_attributes
+      procedure, private :: define_cases
+      procedure, private :: define_inputs
+      procedure, private :: define_columns
+      procedure, private :: define_traces
+      procedure, private :: describe
+      procedure, private :: describe_flags
+      procedure, private :: put_input
+      procedure, private :: put_messages
+   end type netcdf_writer
+
+contains
+
+   !> Make the file and everything in it but the cases' values.
+   subroutine create(self, path, manifest, error)
+      class(netcdf_writer), intent(inout) :: self
+      character(len=*), intent(in) :: path
+      type(manifest_type), intent(in) :: manifest
+      type(error_type), allocatable, intent(out) :: error
+
+      self%path = path
+      self%flag = nf90_noerr
+      self%input = manifest%input
+      self%times = size(manifest%time)
+      self%measure = measure_columns()
+      self%fact = fact_columns()
+      self%trace = trace_columns()
+      call self%note(nf90_create(path, ior(nf90_netcdf4, nf90_clobber), self%file), "the file")
+      self%is_open = self%flag == nf90_noerr
+      call self%note(nf90_def_dim(self%file, "case", int(manifest%cases), self%case_dim), "dimension case")
+      call self%define_attributes(manifest)
+      call self%define_cases(int(manifest%cases))
+      call self%define_inputs(int(manifest%cases))
+      call self%define_columns(int(manifest%cases))
+      if (self%times > 0) call self%define_traces(int(manifest%cases))
+      call self%note(nf90_enddef(self%file), "the definitions")
+      if (self%times > 0) call self%note(nf90_put_var(self%file, self%time_var, manifest%time), "time_ms")
+      call self%give_up(error)
+   end subroutine create
+
+   !> Write one block's cases.
+   subroutine put(self, part, error)
+      class(netcdf_writer), intent(inout) :: self
+      type(part_type), intent(in) :: part
+      type(error_type), allocatable, intent(out) :: error
+      integer :: first, n, i
+
+      associate (result => part%result)
+         first = int(result%first)
+         n = size(result%status)
+         call self%note(nf90_put_var(self%file, self%case_var, [(first + i, i=0, n - 1)], [first], [n]), "case")
+         do i = 1, size(self%input)
+            call self%put_input(i, part%input(i, :), first)
+         end do
+         do i = 1, n_measures
+            call self%note(nf90_put_var(self%file, self%measure_var(i), result%measure(i, :)*self%measure(i)%to_unit, &
+               & [first], [n]), self%measure(i)%name)
+         end do
+         do i = 1, n_facts
+            call self%note(nf90_put_var(self%file, self%fact_var(i), result%fact(i, :)*self%fact(i)%to_unit, &
+               & [first], [n]), self%fact(i)%name)
+         end do
+         call self%note(nf90_put_var(self%file, self%status_var, int(result%status, int8), [first], [n]), "status")
+         call self%note(nf90_put_var(self%file, self%warnings_var, int(result%warnings, int8), [first], [n]), &
+            & "warnings")
+         call self%put_messages(result%message, first)
+         do i = 1, merge(n_traces, 0, self%times > 0)
+            call self%note(nf90_put_var(self%file, self%trace_var(i), result%trace(:, i, :)*self%trace(i)%to_unit, &
+               & [1, first], [self%times, n]), self%trace(i)%name)
+         end do
+      end associate
+      call self%give_up(error)
+   end subroutine put
+
+   !> Close; harmless when nothing is open. Without `error`, whatever happens then is of no interest.
+   subroutine close_file(self, error)
+      class(netcdf_writer), intent(inout) :: self
+      type(error_type), allocatable, optional, intent(out) :: error
+      integer :: flag
+
+      if (.not. self%is_open) return
+      self%is_open = .false.
+      flag = nf90_close(self%file)
+      if (.not. present(error)) return
+      call self%note(flag, "the last of it")
+      call self%give_up(error)
+   end subroutine close_file
+
+   !> Keep the first failure.
+   subroutine note(self, flag, at)
+      class(netcdf_writer), intent(inout) :: self
+      integer, intent(in) :: flag
+      character(len=*), intent(in) :: at
+
+      if (self%flag /= nf90_noerr .or. flag == nf90_noerr) return
+      self%flag = flag
+      self%at = at
+   end subroutine note
+
+   !> Turn the first failure into an error.
+   subroutine give_up(self, error)
+      class(netcdf_writer), intent(inout) :: self
+      type(error_type), allocatable, intent(out) :: error
+
+      if (self%flag == nf90_noerr) return
+      call fail(error, rv_io, "cannot write '"//self%path//"': "//trim(nf90_strerror(self%flag)) &
+         & //" (at "//self%at//")")
+      call self%close()
+   end subroutine give_up
+
+   subroutine define_attributes(self, manifest)
+      class(netcdf_writer), intent(inout) :: self
+      type(manifest_type), intent(in) :: manifest
+
+      call global("Conventions", "CF-1.10")
+      call global("title", manifest%title)
+      call global("deck_name", manifest%deck_name)
+      call global("deck", manifest%deck)
+      call global("effective_values", manifest%effective)
+      call global("code_version", code_version)
+      call global("compiler", compiler_text())
+      call global("library_versions", library_text())
+
+   contains
+
+      subroutine global(name, text)
+         character(len=*), intent(in) :: name, text
+
+         call self%note(nf90_put_att(self%file, nf90_global, name, text), "attribute "//name)
+      end subroutine global
+
+   end subroutine define_attributes
+
+   !> The case number, how each case ended, and its message.
+   subroutine define_cases(self, cases)
+      class(netcdf_writer), intent(inout) :: self
+      integer, intent(in) :: cases
+      type(text_type) :: word(n_statuses), warning(n_warnings)
+      integer :: length_dim, i
+
+      do i = 1, n_statuses
+         word(i)%s = status_name(i - 1)
+      end do
+      do i = 1, n_warnings
+         warning(i)%s = warning_name(i)
+      end do
+      self%case_var = new_variable(self, "case", nf90_int, [self%case_dim], [min(cases, chunk_cases)])
+      call self%describe(self%case_var, "1", "case number in the order of the deck, from 1")
+      self%status_var = new_variable(self, "status", nf90_byte, [self%case_dim], [min(cases, chunk_cases)])
+      call self%describe(self%status_var, "1", "how the case ended")
+      call self%describe_flags(self%status_var, "flag_values", [(int(i - 1, int8), i=1, n_statuses)], word)
+      self%warnings_var = new_variable(self, "warnings", nf90_byte, [self%case_dim], [min(cases, chunk_cases)])
+      call self%describe(self%warnings_var, "1", "what to beware of in the case")
+      call self%describe_flags(self%warnings_var, "flag_masks", [(int(2**(i - 1), int8), i=1, n_warnings)], warning)
+      call self%note(nf90_def_dim(self%file, "message_length", message_length, length_dim), "message_length")
+      self%message_var = new_variable(self, "message", nf90_char, [length_dim, self%case_dim], &
+         & [message_length, min(cases, chunk_messages)])
+      call self%describe(self%message_var, "1", "why the case failed, or what it warns of")
+      call self%note(nf90_put_att(self%file, self%message_var, "_Encoding", "utf-8"), "message")
+   end subroutine define_cases
+
+   !> The model and the swept keys.
+   subroutine define_inputs(self, cases)
+      class(netcdf_writer), intent(inout) :: self
+      integer, intent(in) :: cases
+      integer :: i, j, dim, longest
+
+      allocate(self%input_var(size(self%input)))
+      do i = 1, size(self%input)
+         associate (input => self%input(i), var => self%input_var(i))
+            select case (input%kind)
+            case (kind_text)
+               longest = longest_word(input%word)
+               call self%note(nf90_def_dim(self%file, input%name//"_length", longest, dim), input%name)
+               var = new_variable(self, input%name, nf90_char, [dim, self%case_dim], &
+                  & [longest, min(cases, max(1, chunk_bytes/longest))])
+               call self%note(nf90_put_att(self%file, var, "_Encoding", "utf-8"), input%name)
+            case (kind_choice)
+               var = new_variable(self, input%name, nf90_byte, [self%case_dim], [min(cases, chunk_cases)])
+               call self%describe_flags(var, "flag_values", [(int(j, int8), j=1, size(input%word))], input%word)
+            case default
+               var = new_variable(self, input%name, nf90_double, [self%case_dim], [min(cases, chunk_cases)])
+            end select
+            call self%describe(var, input%unit, input%long_name)
+         end associate
+      end do
+   end subroutine define_inputs
+
+   !> Measures and facts.
+   subroutine define_columns(self, cases)
+      class(netcdf_writer), intent(inout) :: self
+      integer, intent(in) :: cases
+      integer :: i
+
+      do i = 1, n_measures
+         self%measure_var(i) = new_variable(self, self%measure(i)%name, nf90_double, [self%case_dim], &
+            & [min(cases, chunk_cases)])
+         call self%describe(self%measure_var(i), self%measure(i)%unit, self%measure(i)%long_name)
+      end do
+      do i = 1, n_facts
+         self%fact_var(i) = new_variable(self, self%fact(i)%name, nf90_double, [self%case_dim], &
+            & [min(cases, chunk_cases)])
+         call self%describe(self%fact_var(i), self%fact(i)%unit, self%fact(i)%long_name)
+      end do
+   end subroutine define_columns
+
+   !> The time coordinate and the histories.
+   subroutine define_traces(self, cases)
+      class(netcdf_writer), intent(inout) :: self
+      integer, intent(in) :: cases
+      integer :: time_dim, chunk(2), i
+
+      chunk(1) = min(self%times, chunk_bytes/bytes_real)
+      chunk(2) = min(cases, max(1, chunk_bytes/(bytes_real*chunk(1))))
+      call self%note(nf90_def_dim(self%file, "time", self%times, time_dim), "dimension time")
+      self%time_var = new_variable(self, "time_ms", nf90_double, [time_dim], [chunk(1)])
+      call self%describe(self%time_var, "ms", "time")
+      do i = 1, n_traces
+         self%trace_var(i) = new_variable(self, self%trace(i)%name, nf90_double, [time_dim, self%case_dim], chunk)
+         call self%describe(self%trace_var(i), self%trace(i)%unit, self%trace(i)%long_name)
+         call self%note(nf90_put_att(self%file, self%trace_var(i), "coordinates", "time_ms"), self%trace(i)%name)
+      end do
+   end subroutine define_traces
+
+   !> A chunked variable; reals are filled with NaN.
+   integer function new_variable(self, name, kind, dims, chunk) result(var)
+      class(netcdf_writer), intent(inout) :: self
+      character(len=*), intent(in) :: name
+      integer, intent(in) :: kind                 !! nf90_double, ...
+      integer, intent(in) :: dims(:), chunk(:)
+      real(wp) :: nan
+
+      var = 0
+      call self%note(nf90_def_var(self%file, name, kind, dims, var, chunksizes=chunk, cache_size=cache_bytes, &
+         & cache_nelems=509, cache_preemption=100), name)
+      if (kind /= nf90_double) return
+      nan = ieee_value(nan, ieee_quiet_nan)
+      call self%note(nf90_def_var_fill(self%file, var, 0, nan), name)
+   end function new_variable
+
+   subroutine describe(self, var, unit, long_name)
+      class(netcdf_writer), intent(inout) :: self
+      integer, intent(in) :: var
+      character(len=*), intent(in) :: unit        !! empty: a pure number
+      character(len=*), intent(in) :: long_name
+
+      if (unit == "") then
+         call self%note(nf90_put_att(self%file, var, "units", "1"), long_name)
+      else
+         call self%note(nf90_put_att(self%file, var, "units", unit), long_name)
+      end if
+      call self%note(nf90_put_att(self%file, var, "long_name", long_name), long_name)
+   end subroutine describe
+
+   !> CF flags: `attribute` is flag_values or flag_masks.
+   subroutine describe_flags(self, var, attribute, value, meaning)
+      class(netcdf_writer), intent(inout) :: self
+      integer, intent(in) :: var
+      character(len=*), intent(in) :: attribute
+      integer(int8), intent(in) :: value(:)
+      type(text_type), intent(in) :: meaning(:)   !! words without blanks
+      character(len=:), allocatable :: words
+      integer :: i
+
+      words = ""
+      do i = 1, size(meaning)
+         words = words//meaning(i)%s//" "
+      end do
+      call self%note(nf90_put_att(self%file, var, attribute, value), attribute)
+      call self%note(nf90_put_att(self%file, var, "flag_meanings", trim(words)), "flag_meanings")
+   end subroutine describe_flags
+
+   subroutine put_input(self, i, value, first)
+      class(netcdf_writer), intent(inout) :: self
+      integer, intent(in) :: i                    !! which input
+      real(wp), intent(in) :: value(:)
+      integer, intent(in) :: first
+      integer :: flag, longest
+
+      associate (input => self%input(i), var => self%input_var(i), n => size(value))
+         select case (input%kind)
+         case (kind_text)
+            longest = longest_word(input%word)
+            flag = nf90_put_var(self%file, var, padded(input%word, nint(value), longest), [1, first], [longest, n])
+         case (kind_choice)
+            flag = nf90_put_var(self%file, var, int(nint(value), int8), [first], [n])
+         case default
+            flag = nf90_put_var(self%file, var, value, [first], [n])
+         end select
+         call self%note(flag, input%name)
+      end associate
+   end subroutine put_input
+
+   !> Only the messages there are: chunks without one take no room in the file.
+   subroutine put_messages(self, message, first)
+      class(netcdf_writer), intent(inout) :: self
+      type(text_type), intent(in) :: message(:)
+      integer, intent(in) :: first
+      integer :: i
+
+      do i = 1, size(message)
+         if (len(message(i)%s) == 0) cycle
+         call self%note(nf90_put_var(self%file, self%message_var, padded(message, [i], message_length), &
+            & [1, first + i - 1], [message_length, 1]), "message")
+      end do
+   end subroutine put_messages
+
+   !> Some of the texts in one length, filled up with zero bytes, which readers take for the end of a text.
+   pure function padded(text, chosen, length) result(same)
+      type(text_type), intent(in) :: text(:)
+      integer, intent(in) :: chosen(:)
+      integer, intent(in) :: length
+      character(len=length), allocatable :: same(:)
+      integer :: i, n
+
+      allocate(same(size(chosen)))
+      do i = 1, size(chosen)
+         n = min(len(text(chosen(i))%s), length)
+         same(i) = text(chosen(i))%s(:n)//repeat(achar(0), length - n)
+      end do
+   end function padded
+
+   pure integer function longest_word(word) result(longest)
+      type(text_type), intent(in) :: word(:)
+      integer :: i
+
+      longest = 1
+      do i = 1, size(word)
+         longest = max(longest, len(word(i)%s))
+      end do
+   end function longest_word
+
+   !> About how large the file will be, messages left out; rather more than less.
+   pure integer(i8) function expected_size(manifest) result(bytes)
+      type(manifest_type), intent(in) :: manifest
+      integer(i8) :: case_bytes, cases
+      integer :: i
+
+      cases = manifest%cases
+      if (cases > chunk_cases) cases = chunk_cases*((cases + chunk_cases - 1)/chunk_cases)
+      case_bytes = 6 + bytes_real*(n_measures + n_facts + n_traces*size(manifest%time, kind=i8))
+      do i = 1, size(manifest%input)
+         case_bytes = case_bytes + bytes_real
+         if (manifest%input(i)%kind == kind_text) case_bytes = case_bytes + longest_word(manifest%input(i)%word)
+      end do
+      bytes = cases*case_bytes + bytes_real*size(manifest%time) + len(manifest%deck) + len(manifest%effective) &
+         & + fixed_bytes + cases/chunk_cases*2048
+   end function expected_size
+
+end module rv_results_netcdf

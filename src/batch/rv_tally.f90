@@ -1,0 +1,59 @@
+!> What came out of many cases, in a few numbers and the first failures.
+module rv_tally
+   use rv_kinds, only : i8
+   use rv_text, only : text_type, to_text
+   use rv_block, only : block_result
+   use rv_status, only : n_statuses, n_warnings, status_name, status_ok
+   implicit none
+   private
+   public :: tally_type
+
+   integer, parameter :: most_named = 10   !! failures told one by one
+
+   type :: tally_type
+      integer(i8) :: cases = 0
+      integer(i8) :: failed = 0
+      integer(i8) :: by_status(0:n_statuses - 1) = 0
+      integer(i8) :: warned(n_warnings) = 0
+      type(text_type) :: failure(most_named)   !! the first failures: "case 17 (film_closed): ..."
+      integer :: named = 0                     !! how many of them there are
+      character(len=:), allocatable :: warning !! the first message of a case with a warning that did not fail
+   contains
+      procedure :: add
+   end type tally_type
+
+contains
+
+   !> Count a block's cases; blocks come in their order.
+   subroutine add(self, result)
+      class(tally_type), intent(inout) :: self
+      type(block_result), intent(in) :: result
+      integer :: i, bit
+
+      do i = 1, size(result%status)
+         self%cases = self%cases + 1
+         self%by_status(result%status(i)) = self%by_status(result%status(i)) + 1
+         do bit = 1, n_warnings
+            if (btest(result%warnings(i), bit - 1)) self%warned(bit) = self%warned(bit) + 1
+         end do
+         if (result%status(i) /= status_ok) then
+            call name_failure(self, result, i)
+         else if (result%warnings(i) /= 0 .and. .not. allocated(self%warning)) then
+            self%warning = result%message(i)%s
+         end if
+      end do
+   end subroutine add
+
+   subroutine name_failure(self, result, i)
+      class(tally_type), intent(inout) :: self
+      type(block_result), intent(in) :: result
+      integer, intent(in) :: i
+
+      self%failed = self%failed + 1
+      if (self%named == most_named) return
+      self%named = self%named + 1
+      self%failure(self%named)%s = "case "//to_text(result%first + i - 1)//" (" &
+         & //status_name(result%status(i))//"): "//result%message(i)%s
+   end subroutine name_failure
+
+end module rv_tally
