@@ -86,12 +86,13 @@ def history_picture(variant: Variant, pressures: list[float], problems: list[str
         28.0 * len(pressures) + 18.0, len(pressures), 2, sharey="row", sharex="col",
         gridspec_kw={"width_ratios": [1.0, 1.25]},
     )  # fmt: skip
+    gap = _gap_to_draw(variant)
     event = closing_event_ms(result, int(variant.cases[0]))
     windows = [(0.0, 5.0), (event - 0.5, event + 6.5)]
     for pressure, row in zip(pressures, grid, strict=True):
         steady = math.nan
         for model in variant.models:
-            case = _good_case(variant, model, pressure, paper.GAP_MM, problems)
+            case = _good_case(variant, model, pressure, gap, problems)
             if case is None:
                 continue
             u = 1e3 * result.trace("displacement_mm", case)
@@ -103,7 +104,7 @@ def history_picture(variant: Variant, pressures: list[float], problems: list[str
             axes.axhline(0.0, color=GREY, lw=0.5, zorder=0)
         row[1].tick_params(labelleft=False)
         row[1].annotate(f"{pressure:g} kPa", (0.97, 0.93), xycoords="axes fraction", ha="right", va="top")
-        if pressure in fea:
+        if pressure in fea and gap == paper.GAP_MM:
             row[1].plot(event + fea[pressure], 0.02 * steady, marker="x", color=BLACK, ls="", mew=1.2)
     for axes, title in zip(grid[0], ("opening", "closing"), strict=True):
         axes.set_title(title)
@@ -123,10 +124,18 @@ def history_picture(variant: Variant, pressures: list[float], problems: list[str
         "displacement_histories",
         "Tip displacement while opening and closing at "
         + ", ".join(f"{p:g}" for p in pressures)
-        + f" kPa, gap {paper.GAP_MM:g} mm. Crosses: where the published finite elements reach 2 % of"
+        + f" kPa, gap {gap:g} mm. Crosses: where the published finite elements reach 2 % of"
         " the steady displacement.",
         figure,
     )
+
+
+def _gap_to_draw(variant: Variant) -> float:
+    """The finite elements' gap [mm], or the narrowest of a result that does not hold it."""
+    gaps = variant.axis("film.gap_mm")
+    if not len(gaps) or np.isclose(gaps, paper.GAP_MM, rtol=1e-6).any():
+        return paper.GAP_MM
+    return float(gaps[0])
 
 
 def _good_case(variant: Variant, model: str, pressure: float, gap: float, problems: list[str]) -> int | None:
@@ -185,7 +194,7 @@ def _curve(variant: Variant, model: str, measure: str, problems: list[str]) -> t
     """Pressures [kPa] and a measure [ms] of one model at the paper's gap."""
     pressures, values = [], []
     for pressure in variant.axis("pressure.inlet_kpa"):
-        case = _good_case(variant, model, float(pressure), paper.GAP_MM, [])
+        case = variant.find(model, float(pressure), paper.GAP_MM)
         value = math.nan if case is None else float(variant.result.measure(measure)[case])
         if math.isnan(value):
             problems.append(f"no {measure} to draw at {pressure:g} kPa for model {model}")

@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
+import numpy as np
 import pytest
 from matplotlib import pyplot as plt
 from reedpost.figures import draw
 from reedpost.results import read_result
 from reedpost.style import COLUMN_IN, LOOKS, svg_bytes
+from synthetic import Case, write_result
 
 
 @pytest.fixture(autouse=True)
@@ -74,3 +78,14 @@ def test_what_is_missing_is_named(broken):
 
 def test_svg_carries_no_date(sweep):
     assert b"<dc:date>" not in svg_bytes(draw(read_result(sweep)).pictures[0].figure)
+
+
+def test_a_valve_with_another_gap_is_drawn(tmp_path):
+    time = np.arange(0.0, 40.001, 0.1)
+    folder = write_result(tmp_path / "r", [Case("squeeze", gap_mm=0.05 + 0.05)], time)
+    result = read_result(folder)
+    wider = replace(result, effective={**result.effective, "film.gap_mm": 0.1})
+    album = draw(wider)
+    assert album.problems == []
+    assert "gap 0.1 mm" in album.pictures[0].caption
+    assert len(album.pictures[0].figure.axes[0].lines) == 2  # the curve and the zero line
