@@ -2,17 +2,16 @@
 module rv_cases
    use, intrinsic :: ieee_arithmetic, only : ieee_is_nan
    use rv_kinds, only : wp, i8
-   use rv_text, only : text_type, to_text
+   use rv_text, only : text_type
+   use rv_text_builder, only : text_builder
    use rv_keys, only : keys, n_keys, n_models, full_name, value_text, choice_name, text_key, &
       & choice_key, key_run_title, key_run_model, key_run_t_end_ms, key_run_traces, key_run_trace_dt_ms, &
       & key_fluid_density_kg_m3, key_fluid_viscosity_pa_s, key_hydro_load, key_pressure_kind, key_pressure_file, &
-      & kind_trace, model_squeeze
+      & model_squeeze
    use rv_trace_file, only : trace_data
    implicit none
    private
-   public :: deck_type, axis_type
-
-   real(wp), parameter :: square_wave_end = 40.0e-3_wp  !! default of run.t_end_ms for square waves [s]
+   public :: deck_type, axis_type, mention_type
 
    !> One axis of the product of cases.
    type :: axis_type
@@ -20,6 +19,12 @@ module rv_cases
       real(wp), allocatable :: value(:)   !! as in a vector of values
       character(len=:), allocatable :: range   !! "from = 5, to = 40, count = 8" if so given; unallocated: a list
    end type axis_type
+
+   !> Where a file is named.
+   type :: mention_type
+      character(len=:), allocatable :: file
+      integer :: line = 0, column = 0
+   end type mention_type
 
    !> One deck; made by read_deck.
    type :: deck_type
@@ -33,6 +38,7 @@ module rv_cases
       integer :: column(n_keys) = 0
       character(len=:), allocatable :: title
       type(text_type), allocatable :: trace_name(:)   !! names of trace files as the deck gives them
+      type(mention_type), allocatable :: trace_mention(:)
       type(text_type), allocatable :: trace_file(:)   !! the same as names that open; place = value(key_pressure_file)
       type(trace_data), allocatable :: trace(:)       !! what they hold
       type(axis_type), allocatable :: axis(:)         !! the last one runs fastest
@@ -47,6 +53,7 @@ module rv_cases
       procedure :: swept_keys
       procedure :: uses_model
       procedure :: matters
+      procedure :: path_of
       procedure :: effective_text
    end type deck_type
 
@@ -64,13 +71,13 @@ contains
       if (self%has_design) n = n*size(self%design, 2)
    end function case_count
 
-   !> All values of one case. Only run.start may still be "by kind", and action_area_mm2 and event_ms NaN.
+   !> All values of one case; only reed.action_area_mm2 and pressure.event_ms may be NaN, for their defaults.
    pure subroutine case_values(self, i, value)
       class(deck_type), intent(in) :: self
       integer(i8), intent(in) :: i                !! 1 to case_count
       real(wp), intent(out) :: value(n_keys)
       integer(i8) :: rest, n
-      integer :: k
+      integer :: k, file
 
       value = self%value
       rest = i - 1
@@ -84,21 +91,11 @@ contains
          value(self%axis(k)%key) = self%axis(k)%value(mod(rest, n) + 1)
          rest = rest/n
       end do
-      if (ieee_is_nan(value(key_run_t_end_ms))) value(key_run_t_end_ms) = default_end(self, value)
-   end subroutine case_values
-
-   !> End of the run where the deck gives none [s].
-   pure real(wp) function default_end(self, value)
-      class(deck_type), intent(in) :: self
-      real(wp), intent(in) :: value(n_keys)
-      integer :: file
-
-      default_end = square_wave_end
-      if (nint(value(key_pressure_kind)) /= kind_trace) return
+      if (.not. ieee_is_nan(value(key_run_t_end_ms))) return
       file = nint(value(key_pressure_file))
       if (file < 1 .or. file > size(self%trace)) return
-      default_end = self%trace(file)%time(size(self%trace(file)%time))
-   end function default_end
+      if (size(self%trace(file)%time) > 0) value(key_run_t_end_ms) = self%trace(file)%time(size(self%trace(file)%time))
+   end subroutine case_values
 
    !> The keys that vary, bar the model: columns of the results, in the order of the axes.
    pure function swept_keys(self) result(list)
@@ -145,37 +142,53 @@ contains
       if (key == key_fluid_viscosity_pa_s) matters = has_load .or. self%uses_model(model_squeeze)
    end function matters
 
+   !> A file name of the deck as one that opens from here.
+   pure function path_of(self, name) result(path)
+      class(deck_type), intent(in) :: self
+      character(len=*), intent(in) :: name
+      character(len=:), allocatable :: path
+
+      path = self%folder//name
+      if (index(name, "/") == 1) path = name
+   end function path_of
+
    !> A complete deck of every value that has an effect or was given, which read_deck takes for the same cases.
    !>
    !> Comments name the rows and checksums of the files, so that two such texts differ if a file does.
    function effective_text(self) result(text)
       class(deck_type), intent(in) :: self
       character(len=:), allocatable :: text
-      character(len=*), parameter :: nl = new_line("a")
+      type(text_builder) :: build
       character(len=:), allocatable :: group, setting
       integer :: key, i
 
-      text = ""
       group = ""
       do key = 1, n_keys
          setting = base_text(self, key)
          if (setting == "") cycle
          if (keys(key)%group /= group) then
-            if (group /= "") text = text//"/"//nl
+            if (group /= "") call build%line("/")
             group = trim(keys(key)%group)
-            text = text//"&"//group//nl
+            call build%line("&"//group)
          end if
-         text = text//"   "//trim(keys(key)%name)//" = "//setting//nl
+         call build%line("   "//trim(keys(key)%name)//" = "//setting)
       end do
-      text = text//"/"//nl
+      call build%line("/")
       do i = 1, size(self%axis)
-         text = text//axis_text(self, self%axis(i))
+         if (self%axis(i)%key == key_run_model) cycle
+         call build%line("&sweep")
+         call build%line("   key = "//quoted(full_name(self%axis(i)%key))//",")
+         call build%line("   "//axis_text(self, self%axis(i)))
+         call build%line("/")
       end do
-      if (self%has_design) text = text//"! "//self%design_note//nl &
-         & //"&design file = "//quoted(self%design_name)//" /"//nl
+      if (self%has_design) then
+         call build%line("&design file = "//quoted(self%design_name)//" /")
+         call build%line("! "//self%design_name//": "//self%design_note)
+      end if
       do i = 1, size(self%trace)
-         text = text//"! "//self%trace_name(i)%s//": "//self%trace(i)%note//nl
+         call build%line("! "//self%trace_name(i)%s//": "//self%trace(i)%note)
       end do
+      text = build%text()
    end function effective_text
 
    !> One base value; empty where there is none to tell.
@@ -204,45 +217,39 @@ contains
       end select
    end function base_text
 
-   !> The &sweep of an axis; none for the models, which &run lists.
+   !> The values of an axis as its &sweep gives them.
    function axis_text(self, axis) result(text)
       class(deck_type), intent(in) :: self
       type(axis_type), intent(in) :: axis
       character(len=:), allocatable :: text
 
-      text = ""
-      if (axis%key == key_run_model) return
-      text = "&sweep"//new_line("a")//"   key = "//quoted(full_name(axis%key))//","//new_line("a")//"   "
       if (allocated(axis%range)) then
-         text = text//axis%range
+         text = axis%range
       else
-         text = text//"values = "//value_list(self, axis)
+         text = "values = "//value_list(self, axis)
       end if
-      text = text//new_line("a")//"/"//new_line("a")
    end function axis_text
 
-   !> The values of an axis, a new line for every eight.
+   !> The values of an axis, a new line after every eight.
    function value_list(self, axis) result(text)
       class(deck_type), intent(in) :: self
       type(axis_type), intent(in) :: axis
       character(len=:), allocatable :: text
-      character(len=:), allocatable :: one
+      type(text_builder) :: build
       integer :: i
 
-      text = ""
       do i = 1, size(axis%value)
          select case (keys(axis%key)%kind)
          case (text_key)
-            one = quoted(self%trace_name(nint(axis%value(i)))%s)
+            call build%add(quoted(self%trace_name(nint(axis%value(i)))%s))
          case (choice_key)
-            one = quoted(value_text(axis%key, axis%value(i)))
+            call build%add(quoted(value_text(axis%key, axis%value(i))))
          case default
-            one = value_text(axis%key, axis%value(i))
+            call build%add(value_text(axis%key, axis%value(i)))
          end select
-         text = text//one
-         if (i < size(axis%value)) text = text//","
-         if (i < size(axis%value)) text = text//merge(new_line("a"), " ", mod(i, 8) == 0)
+         if (i < size(axis%value)) call build%add(","//merge(new_line("a"), " ", mod(i, 8) == 0))
       end do
+      text = build%text()
    end function value_list
 
    !> A text in a deck's quotes.

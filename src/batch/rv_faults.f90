@@ -42,7 +42,7 @@ contains
       character(len=*), intent(in) :: text
 
       self%fault_count = self%fault_count + 1
-      call insert(self, fault_type(file, text, line, column, .false.))
+      call insert(self, file, line, column, text, is_warning=.false.)
    end subroutine add
 
    !> Add a warning.
@@ -53,7 +53,7 @@ contains
       character(len=*), intent(in) :: text
 
       self%warning_count = self%warning_count + 1
-      call insert(self, fault_type(file, text, line, column, .true.))
+      call insert(self, file, line, column, text, is_warning=.true.)
    end subroutine warn
 
    !> How many faults.
@@ -115,16 +115,24 @@ contains
    end function all_text
 
    !> Put `new` behind what stands before it in the same file; the files keep the order of their first remark.
-   pure subroutine insert(self, new)
+   pure subroutine insert(self, file, line, column, text, is_warning)
       class(fault_list), intent(inout) :: self
-      type(fault_type), intent(in) :: new
+      character(len=*), intent(in) :: file, text
+      integer, intent(in) :: line, column
+      logical, intent(in) :: is_warning
+      type(fault_type) :: new
       integer :: i, place
 
       if (.not. allocated(self%item)) allocate(self%item(most_held))
-      if (self%held >= merge(most_held/2, most_held, new%is_warning)) return
+      if (self%held >= merge(most_held/2, most_held, is_warning)) return
+      new%file = file
+      new%text = text
+      new%line = line
+      new%column = column
+      new%is_warning = is_warning
       place = self%held + 1
       do i = self%held, 1, -1
-         if (self%item(i)%file /= new%file) cycle
+         if (self%item(i)%file /= file) cycle
          place = i
          if (is_before(new, self%item(i))) cycle
          place = i + 1

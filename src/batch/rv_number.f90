@@ -20,7 +20,9 @@ contains
       value = 0.0_wp
       trouble = ""
       number = lower(word)
-      if (is_one_of(unsigned(number), ["nan", "inf"]) .or. unsigned(number) == "infinity" &
+      if (number == "") then
+         trouble = "a number is missing"
+      else if (is_one_of(unsigned(number), ["nan", "inf"]) .or. unsigned(number) == "infinity" &
          & .or. index(unsigned(number), "nan(") == 1) then
          trouble = "NaN and infinity are not allowed"
       else if (.not. is_real(number)) then
