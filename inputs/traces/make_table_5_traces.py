@@ -147,6 +147,7 @@ def trace_text(condition: int) -> str:
         f" r_p = {rate:g} kPa/ms, t_z = {t_z:.6f} ms.",
         "# t_z is chosen such that the traditional model, started at equilibrium, reaches u = 0",
         f"# at its published closing time, {closes:g} ms. The open pressure difference, {OPEN_KPA:g} kPa, is assumed.",
+        "# Past the valve's closing the line goes on falling, which has no meaning any more.",
         "# Made by make_table_5_traces.py.",
         "t_ms,p_diff_kpa",
     ]

@@ -180,7 +180,7 @@ def table_5_cases() -> list[Case]:
     for model in MODELS:
         for number in (1, 2, 3):
             path = folder / f"table_5_condition_{number}.csv"
-            rows = np.loadtxt(path, delimiter=",", skiprows=7)
+            rows = np.loadtxt(path, delimiter=",", skiprows=8)
             ends = np.flatnonzero(np.abs(np.diff(rows[:, 1], 2)) > 0.05) + 1  # the corners
             rows = rows[[0, *ends, -1]]
             drive = Polygon(rows[:, 0] * 1e-3, rows[:, 1] * 1e3)
