@@ -233,7 +233,10 @@ def gap_picture(variant: Variant, model: str, problems: list[str]) -> Picture:
     ramp = float(result.value("pressure.transition_ms", case))
     lower.plot([event - 1.0, event, event + ramp, event + 5.0], [hole, hole, 0.0, 0.0], color=BLACK,
                lw=0.9, label="pressure on the hole, $p_\\mathrm{in} A$")  # fmt: skip
+    steady = 1e3 * float(result.measure("steady_mm")[case])
     upper.axhline(0.0, color=GREY, lw=0.5, zorder=0)
+    if math.isfinite(steady):
+        upper.set_ylim(-0.2 * steady, 1.1 * steady)  # the swing of the opening is not shown
     upper.set_ylabel("displacement (µm)")
     upper.legend(title="gap at rest", title_fontsize=7, loc="upper right")
     lower.set_ylabel("resistance (N)")
