@@ -3,7 +3,7 @@
 !> |z| <= 2: ascending series (Abramowitz & Stegun 9.6.11 and 9.6.13).
 !> |z| > 2: Steed's evaluation of Temme's continued fraction CF2
 !> (Temme 1975, doi:10.1016/0021-9991(75)90082-0). Both reach rounding in at most
-!> some hundred terms; on the ray arg z = pi/4 the relative error stays below 1e-13.
+!> some hundred terms; on the ray arg z = -pi/4 the relative error stays below 1e-13.
 module rv_bessel
    use rv_kinds, only : wp, pi
    implicit none
@@ -58,7 +58,7 @@ contains
       k1 = exp(z)*(1.0_wp/z + log(0.5_wp*z)*0.5_wp*z*i1 - 0.25_wp*z*sum1)
    end subroutine ascending_series
 
-   !> CF2 for order 0: with a_n = n(n-1) + 1/4 - ..., Steed's recurrence gives K0 and K1/K0 together.
+   !> CF2 for order 0, a_n = -(n - 1/2)^2 and b_n = 2 (n + z): Steed's recurrence gives K0 and K1/K0 together.
    pure subroutine continued_fraction(z, k0, k1)
       complex(wp), intent(in) :: z
       complex(wp), intent(out) :: k0, k1

@@ -2,7 +2,7 @@
 !>
 !> Fritsch & Butland (1984), doi:10.1137/0905021: interior slopes are the weighted harmonic mean of
 !> the neighbouring secants, zero at a turn; the ends take a three-point formula held to the same rule.
-!> Second order in general, third for smooth monotone data.
+!> Second order in general, third for smooth monotone data on even samples.
 module rv_monotone_cubic
    use rv_kinds, only : wp
    implicit none

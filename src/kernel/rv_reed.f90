@@ -98,7 +98,8 @@ contains
       slope = (c(1) + r*(2.0_wp*c(2) + r*(3.0_wp*c(3) + r*4.0_wp*c(4))))/self%length
    end function slope_at
 
-   !> Curvature d2(phi)/dx2 = M/(E I u(L)), Eq. (10); the load makes it jump nowhere but in its slope.
+   !> Curvature d2(phi)/dx2 = M/(E I u(L)), Eq. (10). It and its slope are continuous; E I times its second derivative
+   !> is the load, which jumps at the edges of the hole.
    elemental function curvature_at(self, x) result(curvature)
       class(reed_type), intent(in) :: self
       real(wp), intent(in) :: x   !! distance from the clamp [m]
