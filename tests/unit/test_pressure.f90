@@ -16,6 +16,7 @@ program test_pressure
    call test_period()
    call test_square_stops()
    call test_square_events()
+   call test_square_span()
    call test_square_refused()
    call test_trace_values()
    call test_trace_stops()
@@ -102,6 +103,8 @@ contains
       call close_list("half a ramp", wave%stops(0.25_wp*ms), [0.25_wp]*ms)
       call close_list("end on a corner", wave%stops(19.5_wp*ms), [0.5_wp, 19.5_wp]*ms)
       call close_list("end in a ramp", wave%stops(20.0_wp*ms), [0.5_wp, 19.5_wp, 20.0_wp]*ms)
+      call close_list("end in the rising ramp", wave%stops(39.75_wp*ms), [0.5_wp, 19.5_wp, 20.5_wp, 39.5_wp, &
+         & 39.75_wp]*ms)
       call close_list("two periods and a half", wave%stops(100.0_wp*ms), &
          & [0.5_wp, 19.5_wp, 20.5_wp, 39.5_wp, 40.5_wp, 59.5_wp, 60.5_wp, 79.5_wp, 80.5_wp, 99.5_wp, 100.0_wp]*ms)
    end subroutine test_square_stops
@@ -120,11 +123,35 @@ contains
       call suite%close("own event [s]", wave%event, 10.0_wp*ms, rtol=0.0_wp, atol=0.0_wp)
       call close_list("stops with own event", wave%stops(40.0_wp*ms), &
          & [0.5_wp, 10.0_wp, 19.5_wp, 20.5_wp, 39.5_wp, 40.0_wp]*ms)
+      call new_square_wave(wave, 40.0_wp*ms, ms, error, event=19.5_wp*ms*(1.0_wp + 1.0e-10_wp))
+      call suite%no_error("wave with its event next to a corner", error)
+      call close_list("an event next to a corner takes its place", wave%stops(40.0_wp*ms), &
+         & [0.5_wp, 19.5_wp*(1.0_wp + 1.0e-10_wp), 20.5_wp, 39.5_wp, 40.0_wp]*ms)
+      call new_square_wave(wave, 40.0_wp*ms, ms, error, event=20.5_wp*ms*(1.0_wp - 1.0e-10_wp))
+      call suite%no_error("wave with its event just before a corner", error)
+      call close_list("an event just before a corner takes its place", wave%stops(40.0_wp*ms), &
+         & [0.5_wp, 19.5_wp, 20.5_wp*(1.0_wp - 1.0e-10_wp), 39.5_wp, 40.0_wp]*ms)
+      call new_square_wave(wave, 40.0_wp*ms, ms, error, event=10.0_wp*ms)
+      call suite%no_error("wave with its own event", error)
       call close_list("event after the end", wave%stops(5.0_wp*ms), [0.5_wp, 5.0_wp]*ms)
       call new_square_wave(wave, 40.0_wp*ms, ms, error, event=59.5_wp*ms)
       call suite%no_error("event in the second cycle", error)
       call suite%close("cycle end not before the event [s]", wave%cycle_end, 59.5_wp*ms, rtol=0.0_wp, atol=0.0_wp)
    end subroutine test_square_events
+
+   !> The pressure difference swings between that of R = 0 and that of R = 1.
+   subroutine test_square_span()
+      type(square_wave) :: wave
+
+      wave = paper_wave()
+      call suite%close("span, inlet alone [Pa]", wave%span(20.0e3_wp, 0.0_wp), 20.0e3_wp, rtol=0.0_wp, atol=0.0_wp)
+      call suite%close("span, small back pressure [Pa]", wave%span(20.0e3_wp, 5.0e3_wp), 15.0e3_wp, rtol=0.0_wp, &
+         & atol=0.0_wp)
+      call suite%close("span, large back pressure [Pa]", wave%span(20.0e3_wp, 15.0e3_wp), 15.0e3_wp, rtol=0.0_wp, &
+         & atol=0.0_wp)
+      call suite%close("span, suction inlet [Pa]", wave%span(-20.0e3_wp, 5.0e3_wp), 25.0e3_wp, rtol=0.0_wp, atol=0.0_wp)
+      call suite%close("span, suction outlet [Pa]", wave%span(2.0e3_wp, -5.0e3_wp), 7.0e3_wp, rtol=0.0_wp, atol=0.0_wp)
+   end subroutine test_square_span
 
    subroutine test_square_refused()
       real(wp), parameter :: period(6) = [0.0_wp, -40.0_wp, 40.0_wp, 40.0_wp, 40.0_wp, 40.0_wp]
@@ -170,6 +197,9 @@ contains
          call suite%close("inlet at sample "//to_text(n)//" [Pa]", inlet, inlet_at(n), rtol=1.0e-15_wp, atol=1.0e-11_wp)
          call suite%close("outlet at sample "//to_text(n)//" [Pa]", outlet, outlet_at(n), rtol=1.0e-15_wp, atol=0.0_wp)
       end do
+      call suite%close("span of the samples [Pa]", trace%span(1.0_wp, 1.0_wp), 59.0e3_wp, rtol=1.0e-15_wp, atol=0.0_wp)
+      call suite%close("span, outlet outweighing [Pa]", trace%span(0.0_wp, 2.0_wp), 12.0e3_wp, rtol=1.0e-15_wp, &
+         & atol=0.0_wp)
       slope = monotone_slopes(t, inlet_at)
       do n = 1, 5
          x = t(n) + 0.3_wp*(t(n + 1) - t(n))
