@@ -50,6 +50,7 @@ module rv_cases
    contains
       procedure :: case_count
       procedure :: case_values
+      procedure :: time_span
       procedure :: swept_keys
       procedure :: uses_model
       procedure :: matters
@@ -96,6 +97,30 @@ contains
       if (file < 1 .or. file > size(self%trace)) return
       if (size(self%trace(file)%time) > 0) value(key_run_t_end_ms) = self%trace(file)%time(size(self%trace(file)%time))
    end subroutine case_values
+
+   !> Earliest start and latest end of all cases [s].
+   pure subroutine time_span(self, start, finish)
+      class(deck_type), intent(in) :: self
+      real(wp), intent(out) :: start, finish
+      integer :: i
+
+      start = 0.0_wp
+      if (size(self%trace) > 0) start = minval([(self%trace(i)%time(1), i = 1, size(self%trace))])
+      finish = self%value(key_run_t_end_ms)
+      do i = 1, size(self%axis)
+         if (self%axis(i)%key == key_run_t_end_ms) finish = maxval(self%axis(i)%value)
+      end do
+      if (self%has_design) then
+         do i = 1, size(self%design_key)
+            if (self%design_key(i) == key_run_t_end_ms) finish = maxval(self%design(i, :))
+         end do
+      end if
+      if (.not. ieee_is_nan(finish)) return
+      finish = start
+      do i = 1, size(self%trace)
+         finish = max(finish, self%trace(i)%time(size(self%trace(i)%time)))
+      end do
+   end subroutine time_span
 
    !> The keys that vary, bar the model: columns of the results, in the order of the axes.
    pure function swept_keys(self) result(list)

@@ -21,14 +21,13 @@ module rv_deck_check
    integer(i8), parameter :: most_checked = 10000_i8   !! cases looked at; beyond them each case checks itself
 
    !> Rules that tie values of one case together, and the keys each looks at.
-   integer, parameter :: hole_fits = 1, ramp_fits = 2, event_in_trace = 3, end_in_trace = 4, few_samples = 5, &
-      & few_periods = 6, event_not_negative = 7, event_before_end = 8, n_rules = 8
+   integer, parameter :: hole_fits = 1, ramp_fits = 2, event_in_trace = 3, end_in_trace = 4, &
+      & few_periods = 5, event_not_negative = 6, event_before_end = 7, n_rules = 7
    integer, parameter :: rule_keys(4, n_rules) = reshape([ &
       & key_reed_hole_diameter_mm, key_reed_width_mm, 0, 0, &
       & key_pressure_transition_ms, key_pressure_period_ms, 0, 0, &
       & key_pressure_event_ms, key_pressure_file, key_pressure_kind, 0, &
       & key_run_t_end_ms, key_pressure_file, key_pressure_kind, 0, &
-      & key_run_trace_dt_ms, key_run_t_end_ms, key_pressure_file, key_run_traces, &
       & key_run_t_end_ms, key_pressure_period_ms, key_pressure_kind, 0, &
       & key_pressure_event_ms, key_pressure_kind, 0, 0, &
       & key_run_t_end_ms, key_pressure_event_ms, key_pressure_period_ms, key_pressure_transition_ms], [4, n_rules])
@@ -47,7 +46,22 @@ contains
       do rule = 1, n_rules
          call check_rule(draft, rule)
       end do
+      call check_samples(draft)
    end subroutine check_deck
+
+   !> The stored histories of all cases share one time axis; it must not be endless.
+   subroutine check_samples(draft)
+      type(draft_type), intent(inout) :: draft
+      real(wp) :: start, finish, samples
+
+      if (any(draft%is_bad([key_run_traces, key_run_trace_dt_ms, key_run_t_end_ms, key_pressure_file]))) return
+      if (draft%deck%value(key_run_traces) < 0.5_wp) return
+      call draft%deck%time_span(start, finish)
+      samples = (finish - start)/draft%deck%value(key_run_trace_dt_ms)
+      if (samples > most_samples) call tell_at(draft, key_run_trace_dt_ms, setting(key_run_trace_dt_ms, &
+         & draft%deck%value)//" stores "//to_text(samples, 3)//" samples from "//range_in_ms(start, finish) &
+         & //"; at most "//to_text(nint(most_samples))//" can be stored")
+   end subroutine check_samples
 
    !> A trace needs its file, and the event that nothing else tells.
    subroutine check_files(draft)
@@ -105,7 +119,7 @@ contains
       integer, allocatable :: list(:)
       character(len=:), allocatable :: text
       integer(i8) :: i
-      integer :: key
+      integer :: key, n
 
       list = pack(rule_keys(:, rule), rule_keys(:, rule) > 0)
       if (any(draft%is_bad(list))) return
@@ -117,9 +131,10 @@ contains
       end do
       if (text == "") return
       if (any(varies(draft, list))) text = "case "//to_text(i)//": "//text
-      list = pack(list, draft%deck%line(list) > 0)
-      key = 0
-      if (size(list) > 0) key = list(1)
+      key = list(1)
+      do n = size(list), 1, -1
+         if (draft%deck%line(list(n)) > 0) key = list(n)
+      end do
       if (rule == event_before_end) then
          call warn_at(draft, key, text)
       else
@@ -160,11 +175,6 @@ contains
             is_broken = finish <= first .or. finish > last
             if (.not. is_square .and. is_broken) text = setting(key_run_t_end_ms, value) &
                & //" must lie within the trace, "//range_in_ms(first, last)
-         case (few_samples)
-            is_broken = value(key_run_traces) > 0.5_wp .and. (finish - first)/value(key_run_trace_dt_ms) > most_samples
-            if (is_broken) text = setting(key_run_trace_dt_ms, value)//" gives "//to_text((finish - first) &
-               & /value(key_run_trace_dt_ms), 3)//" samples up to "//setting(key_run_t_end_ms, value) &
-               & //"; at most "//to_text(nint(most_samples))//" can be stored"
          case (few_periods)
             is_broken = finish > most_periods*value(key_pressure_period_ms)
             if (is_square .and. is_broken) text = setting(key_run_t_end_ms, value)//" is more than " &
@@ -254,30 +264,22 @@ contains
       end if
    end function reason
 
-   !> Add a fault where the deck gives a key.
+   !> Add a fault where the deck gives a key, or of the deck as a whole.
    subroutine tell_at(draft, key, text)
       type(draft_type), intent(inout) :: draft
-      integer, intent(in) :: key   !! 0: the place is not known
+      integer, intent(in) :: key
       character(len=*), intent(in) :: text
 
-      if (key == 0) then
-         call draft%faults%add(draft%scan%file, 0, 0, text)
-      else
-         call draft%faults%add(draft%scan%file, draft%deck%line(key), draft%deck%column(key), text)
-      end if
+      call draft%faults%add(draft%scan%file, draft%deck%line(key), draft%deck%column(key), text)
    end subroutine tell_at
 
-   !> Add a warning where the deck gives a key.
+   !> Add a warning where the deck gives a key, or of the deck as a whole.
    subroutine warn_at(draft, key, text)
       type(draft_type), intent(inout) :: draft
-      integer, intent(in) :: key   !! 0: the place is not known
+      integer, intent(in) :: key
       character(len=*), intent(in) :: text
 
-      if (key == 0) then
-         call draft%faults%warn(draft%scan%file, 0, 0, text)
-      else
-         call draft%faults%warn(draft%scan%file, draft%deck%line(key), draft%deck%column(key), text)
-      end if
+      call draft%faults%warn(draft%scan%file, draft%deck%line(key), draft%deck%column(key), text)
    end subroutine warn_at
 
 end module rv_deck_check

@@ -23,6 +23,7 @@ module rv_deck_scan
    type :: group_type
       type(word_type) :: name
       integer :: first_entry = 1, last_entry = 0   !! places in deck_scan%entry
+      logical :: is_empty = .true.                 !! nothing stands in it, not even a fault
    end type group_type
 
    !> A deck taken apart.
@@ -87,6 +88,9 @@ contains
          return
       else if (name == "") then
          call tell(scan, start, faults, "a group's name must follow '&' directly, as in '&run'")
+         call scan%reader%skip_blanks()
+         call scan%reader%take_any_of(name_characters, group%name)
+         name = scan%reader%word_text(group%name)
       else if (mark == "$") then
          call tell(scan, start, faults, "old form of a group; write '&"//name//" ... /'")
       end if
@@ -98,6 +102,7 @@ contains
       do
          call scan%reader%skip_blanks()
          if (index("/&$"//end_of_text, scan%reader%here()) > 0) exit
+         group%is_empty = .false.
          call scan_entry(scan, faults, name, is_torn)
       end do
       group%last_entry = scan%entries
@@ -162,7 +167,7 @@ contains
       call scan%reader%skip_blanks()
       if (name == "") then
          call tell(scan, scan%reader%now, faults, "the name of a key is due here, not "//scan%reader%here())
-         call skip_mark(scan)
+         call skip_to_key(scan%reader)
          return
       end if
       if (scan%reader%here() == "=") then
@@ -209,17 +214,23 @@ contains
       call scan%reader%skip_line()
    end function took_hash_comment
 
-   !> Pass a mark that has no place where it stands, or a quoted text.
-   subroutine skip_mark(scan)
-      type(deck_scan), intent(inout) :: scan
+   !> Pass what is no setting, up to the next key or the end of the group.
+   subroutine skip_to_key(reader)
+      type(deck_reader), intent(inout) :: reader
       type(word_type) :: word
 
-      if (index("'"//'"', scan%reader%here()) > 0) then
-         call scan%reader%take_quoted(word)
-      else
-         call scan%reader%advance()
-      end if
-   end subroutine skip_mark
+      do
+         if (at_quote(reader)) then
+            call reader%take_quoted(word)
+         else
+            call reader%take_word(word)
+            if (word%last < word%first) call reader%advance()
+         end if
+         call reader%skip_blanks()
+         if (index("/&$"//end_of_text, reader%here()) > 0) return
+         if (at_key(reader)) return
+      end do
+   end subroutine skip_to_key
 
    !> Read the values of one setting; the reader stands behind its =.
    subroutine scan_values(scan, faults, name, start, is_torn)

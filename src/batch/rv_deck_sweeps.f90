@@ -214,7 +214,8 @@ contains
          is_good = .false.
       end if
       if (.not. is_good) return
-      axis%value = to_si(axis%key, points(from_si(axis%key, from), from_si(axis%key, to), nint(count), nint(scale) == 2))
+      axis%value = to_si(axis%key, points(from_si(axis%key, from), from_si(axis%key, to), nint(count), &
+         & is_log=nint(scale) == 2))
       axis%range = "from = "//value_text(axis%key, from)//", to = "//value_text(axis%key, to)//", count = " &
          & //to_text(nint(count))
       if (nint(scale) == 2) axis%range = axis%range//", scale = '"//choice_name(key_sweep_scale, 2)//"'"

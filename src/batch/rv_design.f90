@@ -119,7 +119,8 @@ contains
          rows = rows + 1
          call read_row(draft, reader, path, value(:, rows), is_first=rows == 1)
       end do
-      if (rows == 0 .and. draft%faults%errors() == before) call draft%faults%add(path, 0, 0, "there are no rows of data")
+      if (rows == 0 .and. draft%faults%errors() == before) &
+         & call draft%faults%add(path, 0, 0, "there are no rows of data")
       draft%deck%design = value(:, :rows)
    end subroutine read_rows
 

@@ -86,9 +86,10 @@ module rv_keys
       & key_type("run", "title", text_key, "", one, "", none, 200.0_wp, &
       & "a name for the results", sweepable=.false.), &
       & key_type("run", "model", choice_key, "", one, "squeeze", none, none, &
-      & "valve model, or several: every case is run with each", choices="traditional squeeze", list=.true.), &
+      & "the valve model, or a list of them: every case is run with each", &
+      & choices="traditional squeeze", list=.true.), &
       & key_type("run", "start", choice_key, "", one, "", none, none, &
-      & "from u = 0 or from the static equilibrium; default: rest for square waves, equilibrium for traces", &
+      & "u = 0, or the static equilibrium under the first pressure; default: rest, for traces equilibrium", &
       & choices="rest equilibrium", sweepable=.false.), &
       & key_type("run", "t_end_ms", real_key, "ms", milli, "", 1.0e-3_wp, 1.0e6_wp, &
       & "end of the run; default: 40 for square waves, the last time of a trace", 0.5_wp, 1.0e5_wp), &
@@ -127,7 +128,7 @@ module rv_keys
       & key_type("fluid", "viscosity_pa_s", real_key, "Pa s", one, "0.0484", 1.0e-7_wp, 1.0e4_wp, &
       & "dynamic viscosity of the fluid", 1.0e-6_wp, 10.0_wp), &
       & key_type("hydro", "load", choice_key, "", one, "published", none, none, &
-      & "added mass and damping: what reproduces the paper's tables, two documented choices, or neither", &
+      & "added mass and damping of the fluid, see docs/theory.md", &
       & choices="published maali sader none", sweepable=.false.), &
       & key_type("film", "gap_mm", real_key, "mm", milli, "0.05", 1.0e-6_wp, 1.0e3_wp, &
       & "g0, thickness of the film under the reed at rest", 5.0e-4_wp, 10.0_wp, for_model=only_squeeze), &

@@ -40,10 +40,10 @@ contains
 
       open(newunit=unit, file=path, access="stream", form="unformatted", status="old", action="read", &
          & iostat=stat, iomsg=message)
-      if (stat == 0 .and. bytes > 0) then
+      if (stat == 0) then
          deallocate(text)
          allocate(character(len=bytes) :: text)
-         read(unit, iostat=stat, iomsg=message) text
+         if (bytes > 0) read(unit, iostat=stat, iomsg=message) text
          close(unit)
       end if
       if (stat == 0) return
