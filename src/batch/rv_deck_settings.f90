@@ -5,7 +5,7 @@ module rv_deck_settings
    use rv_text, only : to_text
    use rv_deck_reader, only : word_type
    use rv_deck_draft, only : draft_type, name_trace
-   use rv_keys, only : keys, n_keys, full_name, default_value, text_key, choice_key, key_run_title, key_run_model, &
+   use rv_keys, only : keys, n_keys, full_name, default_value, text_key, real_key, key_run_title, key_run_model, &
       & key_run_start, key_run_t_end_ms, key_pressure_kind, key_pressure_file, kind_square, start_by_kind, start_rest, &
       & start_equilibrium
    use rv_cases, only : axis_type
@@ -82,11 +82,14 @@ contains
       integer, intent(in) :: e, key
       character(len=:), allocatable :: advice
       type(word_type) :: first, second
+      logical :: has_comma
 
       first = draft%value_word(e, 1)
       second = draft%value_word(e, 2)
       advice = ""
-      if (second%first == first%last + 2 .and. first%quote == " " .and. keys(key)%kind /= choice_key) then
+      has_comma = second%first == first%last + 2
+      if (has_comma) has_comma = draft%scan%reader%text(first%last + 1:first%last + 1) == ","
+      if (has_comma .and. keys(key)%kind == real_key) then
          advice = "; a decimal has a point, not a comma"
       else if (keys(key)%sweepable) then
          advice = "; to vary it: &sweep key = '"//full_name(key)//"', values = ... /"

@@ -55,12 +55,12 @@ contains
       case (integer_key)
          call parse_integer(word, number, trouble)
          value = real(number, wp)
-         if (trouble == "" .and. key == key_solver_width .and. popcnt(number) /= 1) trouble = "must be a power of two"
       case default
          call parse_real(word, value, trouble)
          if (trouble == "not a number") trouble = trouble//unit_advice(key, word)
       end select
       if (trouble == "") trouble = range_trouble(key, value)
+      if (trouble == "" .and. key == key_solver_width .and. popcnt(nint(value)) /= 1) trouble = "must be a power of two"
       value = to_si(key, value)
    end subroutine read_bare_value
 

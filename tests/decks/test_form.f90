@@ -49,7 +49,8 @@ contains
       call says(suite, "old end", "&film gap_mm = 0.1 &END", "@:1:20: old form of a group's end; write '/'")
       call says(suite, "end outside", "&film gap_mm = 0.1 /~&end", &
          & "@:2:1: '&end' closes no group; a group ends with '/'")
-      call says(suite, "no name", "& film gap_mm = 0.1 /", "@:1:1: a group's name must follow '&' directly, as in '&run'")
+      call says(suite, "no name", "& film gap_mm = 0.1 /", &
+         & "@:1:1: a group's name must follow '&' directly, as in '&run'")
       call says(suite, "text before", "hello ~&run title = 'a' /", &
          & "@:1:1: text outside all groups: 'hello '; a group starts with its name, as in '&run'")
       call says(suite, "text behind, told once", "&run title = 'a' /~ k_s = 1~ gap_mm = 2 /~&film k_s = 1 /", &
@@ -101,7 +102,8 @@ contains
       call says(suite, "too many values", "&sweep key = 'film.gap_mm', values = 600000*0.1, 600000*0.2 /", &
          & "@:1:50: sweep.values: more than 1000000 values in one deck")
       call says(suite, "unquoted / in a value", "&pressure file = data/p.csv /", &
-         & "@:1:18: pressure.file = data/p.csv: a '/' ends the group unless it stands in quotes; put a text in quotes~" &
+         & "@:1:18: pressure.file = data/p.csv: " &
+         & //"a '/' ends the group unless it stands in quotes; put a text in quotes~" &
          & //"@:1:18: warning: pressure.file has no effect with pressure.kind = 'square'")
       call says(suite, "unquoted / first", "&run title = /tmp/a, traces = F /", &
          & "@:1:14: run.title = /tmp/a: a '/' ends the group unless it stands in quotes; put a text in quotes")
@@ -128,7 +130,8 @@ contains
       call says(suite, "not UTF-8", "! ok~! 5 "//char(181)//"m~&run /", &
          & "@:2:5: byte B5 (hexadecimal) is not UTF-8; save the file as UTF-8")
       call says(suite, "UTF-16", char(255)//char(254)//"&"//achar(0), "@:1:1: this file is UTF-16; save it as UTF-8")
-      call says(suite, "cut off UTF-8", "! "//char(206), "@:1:3: byte CE (hexadecimal) is not UTF-8; save the file as UTF-8")
+      call says(suite, "cut off UTF-8", "! "//char(206), &
+         & "@:1:3: byte CE (hexadecimal) is not UTF-8; save the file as UTF-8")
    end subroutine bytes
 
 end program test_form
