@@ -69,7 +69,7 @@ def _variant_tables(variant: Variant) -> list[Table]:
             if not all(math.isclose(gap, paper.GAP_MM, rel_tol=1e-6) for gap in gaps):
                 other.append(f"film.gap_mm = {gaps[0]:g} instead of {paper.GAP_MM:g} (Sec. III A)")
     for table in tables:
-        table.notes += ["NOT THE PAPER'S VALVE:", *(f"- {line}" for line in other)] if other else []
+        table.notes += ["NOT THE PAPER'S DATA AS READ HERE:", *(f"- {line}" for line in other)] if other else []
     return tables
 
 

@@ -80,9 +80,9 @@ def test_nothing_is_left_out_silently(broken):
 
 def test_another_valve_is_called_so(broken, sweep):
     notes = tables_of(broken)["table_4_squeeze"].notes
-    assert "NOT THE PAPER'S VALVE:" in notes
+    assert "NOT THE PAPER'S DATA AS READ HERE:" in notes
     assert any(note.startswith("- film.k_s = 0.008 instead of 0.0075") for note in notes)
-    assert "NOT THE PAPER'S VALVE:" not in tables_of(sweep)["table_4_squeeze"].notes
+    assert "NOT THE PAPER'S DATA AS READ HERE:" not in tables_of(sweep)["table_4_squeeze"].notes
 
 
 def test_missing_action_area_is_a_difference(sweep):
@@ -179,7 +179,7 @@ def test_variants_are_compared_apart(tmp_path):
     tables = tables_of(write_result(tmp_path / "r", cases))
     assert "table_3_squeeze_1" in tables
     assert tables["table_3_squeeze_2"].title.endswith("(fluid.viscosity_pa_s = 0.02)")
-    assert "NOT THE PAPER'S VALVE:" not in tables["table_3_squeeze_1"].notes
+    assert "NOT THE PAPER'S DATA AS READ HERE:" not in tables["table_3_squeeze_1"].notes
     assert any("viscosity" in note for note in tables["table_3_squeeze_2"].notes)
 
 
