@@ -57,7 +57,6 @@ def gap_table(variant: Variant, model: str) -> Table:
         title=f"Gap study at {paper.GAP_STUDY_KPA:g} kPa: {model} model",
         columns=[*COLUMNS, TAKES_OVER] if result.has_traces else COLUMNS,
     )
-    found: dict[float, int] = {}
     for gap in _gaps(variant, table):
         case = variant.find(model, paper.GAP_STUDY_KPA, gap)
         cells: list[Cell] = [gap, NO_CASE, *[None] * (len(table.columns) - 2)]
@@ -69,14 +68,12 @@ def gap_table(variant: Variant, model: str) -> Table:
             cells = [gap, *values, 100 * number(values[3]) / number(values[0])]
             cells += [float(result.measure("peak_squeeze_n")[case])]
             cells += [film_exceeds_hole_ms(result, case)] if result.has_traces else []
-            if result.status[case] == "ok":
-                found[gap] = case
         table.rows.append(cells)
     table.notes.append("Finite elements at gap 0.05 mm: steady 0.0951 mm, fall 1.42 ms, closing 3.88 ms (Table I).")
     if model == "traditional":
         table.notes.append("This model has no film, so the gap does not act on it.")
     else:
-        table.notes += _findings(result, found)
+        table.notes += _findings(variant, model)
     return table
 
 
@@ -90,11 +87,13 @@ def _gaps(variant: Variant, table: Table) -> list[float]:
     return sorted([*paper.GAP_STUDY_MM, *further])
 
 
-def _findings(result: Result, found: dict[float, int]) -> list[str]:
-    """What the finite element section states, and what our cases (gap -> case) show."""
-    if not found:
+def _findings(variant: Variant, model: str) -> list[str]:
+    """What the finite element section states, and what all gaps of the result show."""
+    result = variant.result
+    found = {float(gap): variant.find(model, paper.GAP_STUDY_KPA, gap) for gap in variant.axis("film.gap_mm")}
+    gaps = [gap for gap, case in found.items() if case is not None and result.status[case] == "ok"]
+    if not gaps:
         return []
-    gaps = sorted(found)
     cases = [found[gap] for gap in gaps]
     closing, under, steady, opening = (
         result.measure(name)[cases] for name in ("closing_ms", "undershoot_mm", "steady_mm", "opening_ms")
@@ -107,7 +106,7 @@ def _findings(result: Result, found: dict[float, int]) -> list[str]:
     verdict = "at no gap"
     if len(below):
         i = below[0]
-        verdict = f"from {gaps[i]:g} mm on ({100 * under[i] / steady[i]:.1f} % of steady there)"
+        verdict = f"from {gaps[i]:.3g} mm on ({100 * under[i] / steady[i]:.1f} % of steady there)"
     lines.append(f"FE: it swings below its rest position from 0.15 mm on. Ours: {verdict}.")
     if math.isclose(gaps[0], paper.GAP_MM, rel_tol=1e-6):
         verdict = "so it is" if opening[0] < closing[0] else "no"
