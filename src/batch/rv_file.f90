@@ -8,7 +8,7 @@ module rv_file
    use rv_kinds, only : i8
    use rv_error, only : error_type, fail, rv_io
    use rv_checksum, only : crc32_of
-   use rv_posix, only : c_text, path_file, path_kind, path_none, reason_text, &
+   use rv_posix, only : c_text, get_reason, path_file, path_kind, path_none, &
       & remove_file, rename_path
    implicit none
    private
@@ -29,7 +29,7 @@ module rv_file
       character(len=:), allocatable :: path
       character(len=:), allocatable :: buffer
       integer :: used = 0
-      integer(int32), public :: crc = 0          !! of the bytes put or got since the file was opened or this was set to 0
+      integer(int32), public :: crc = 0          !! of the bytes since the file was opened or this was set to 0
    contains
       procedure :: open_old
       procedure :: create
@@ -262,8 +262,11 @@ contains
       integer(c_int), intent(in) :: number
       character(len=*), intent(in) :: what, path
       type(error_type), allocatable, intent(out) :: error
+      character(len=:), allocatable :: reason
 
-      if (number /= 0) call fail(error, rv_io, "cannot "//what//" '"//path//"': "//reason_text(number))
+      if (number == 0) return
+      call get_reason(number, reason)
+      call fail(error, rv_io, "cannot "//what//" '"//path//"': "//reason)
    end subroutine check
 
 end module rv_file

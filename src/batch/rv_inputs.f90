@@ -33,6 +33,7 @@ contains
       allocate(manifest%input(size(swept) + 1))
       call describe(deck, key_run_model, manifest%input(1))
       manifest%input(1)%name = "model"
+      manifest%input(1)%long_name = "valve model"
       do i = 1, size(swept)
          call describe(deck, swept(i), manifest%input(i + 1))
       end do

@@ -153,6 +153,7 @@ contains
       input%long_name = record_value(text, "long_name")
       value = record_value(text, "kind")
       read(value, *, iostat=status) input%kind
+      if (status /= 0) input%kind = kind_number
       allocate(input%word(record_count(text, "word")))
       at = 1
       i = 0
@@ -190,7 +191,9 @@ contains
       read(text, *, iostat=status) n
       if (status /= 0) n = 0
       allocate(time(n))
-      if (status == 0) read(text, *, iostat=status) n, time
+      if (status /= 0) return
+      read(text, *, iostat=status) n, time
+      if (status /= 0) time = 0.0_wp
    end subroutine times_from_text
 
 end module rv_manifest

@@ -123,9 +123,9 @@ contains
       call remove_file(folder%file(csv_name//new_suffix), ignored)
       call writers%netcdf%close()
       call remove_file(folder%file(netcdf_name//new_suffix), ignored)
+      if (.not. allocated(error)) return
       ! HDF5 does not say why a write failed
-      if (allocated(error) .and. room >= 0 .and. room < 65536) &
-         & error%message = error%message//"; the disk has "//to_text(room)//" bytes left"
+      if (room >= 0 .and. room < 65536) error%message = error%message//"; the disk has "//to_text(room)//" bytes left"
    end subroutine abandon
 
    !> Give both results their names once they are on the disk, then remove the parts.

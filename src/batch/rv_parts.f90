@@ -116,7 +116,7 @@ contains
       integer(i8) :: n
 
       n = size(part%result%status)
-      messages = joined(part%result%message)
+      call join(part%result%message, messages)
       head = [magic, format_version, int(identity, i8), int(block, i8), part%result%first, n, &
          & size(part%input, 1, i8), int(n_measures, i8), int(n_facts, i8), size(part%result%trace, 1, i8), &
          & int(n_traces, i8), len(messages, i8)]
@@ -278,9 +278,10 @@ contains
       end do
    end function lengths
 
-   pure function joined(message) result(text)
+   !> All messages one behind the other; no function, for threads' sake (see rv_posix).
+   pure subroutine join(message, text)
       type(text_type), intent(in) :: message(:)
-      character(len=:), allocatable :: text
+      character(len=:), allocatable, intent(out) :: text
       integer :: length(size(message)), i, at
 
       length = lengths(message)
@@ -290,7 +291,7 @@ contains
          if (length(i) > 0) text(at + 1:at + length(i)) = message(i)%s
          at = at + length(i)
       end do
-   end function joined
+   end subroutine join
 
    pure function split(text, length) result(message)
       character(len=*), intent(in) :: text

@@ -1,5 +1,6 @@
 /* The few things of the operating system that Fortran 2008 cannot say: folders, renames, fsync, locks,
- * signals, clocks. Every function that can fail returns 0 or an errno; nothing prints, nothing exits. */
+ * signals, clocks. Every function that can fail returns 0 or an errno; nothing exits, and nothing
+ * prints but the notice of a signal, in the words of the program that asked for it. */
 #define _GNU_SOURCE
 
 #include "rv_posix.h"
@@ -21,18 +22,25 @@
 #define LARGEST_CALL ((size_t)1 << 30)
 
 static volatile sig_atomic_t signals_seen = 0;
+static char signal_notice[256];
 
 static void note_signal(int number)
 {
+   int kept = errno;
+
    (void)number;
+   if (!signals_seen) (void)!write(STDERR_FILENO, signal_notice, strlen(signal_notice));
    signals_seen = 1;
+   errno = kept;
 }
 
-/* SIGINT and SIGTERM are noted once; a second one has its usual effect, so nobody is locked in. */
-int rv_posix_catch_signals(void)
+/* SIGINT and SIGTERM are noted once; a second one has its usual effect, so nobody is locked in.
+ * `notice` is what the program wants to be told at once on standard error; it may be empty. */
+int rv_posix_catch_signals(const char *notice)
 {
    struct sigaction action;
 
+   snprintf(signal_notice, sizeof signal_notice, "%s", notice);
    memset(&action, 0, sizeof action);
    action.sa_handler = note_signal;
    action.sa_flags = (int)(SA_RESTART | SA_RESETHAND);

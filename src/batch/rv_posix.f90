@@ -11,7 +11,7 @@ module rv_posix
    public :: make_folder, remove_folder, remove_file, rename_path, sync_folder, list_folder
    public :: lock_file, lock_ours, lock_held, lock_none
    public :: catch_signals, signal_seen, is_terminal, terminal_width
-   public :: seconds, utc_date, host_name, process_number, number_text, reason_text, c_text
+   public :: seconds, utc_date, host_name, process_number, number_text, get_reason, c_text
 
    integer, parameter :: path_none = 0    !! nothing of that name
    integer, parameter :: path_file = 1
@@ -25,8 +25,9 @@ module rv_posix
    integer, parameter :: longest_text = 4096  !! longest path or name taken from C
 
    interface
-      integer(c_int) function c_catch_signals() bind(C, name="rv_posix_catch_signals")
-         import :: c_int
+      integer(c_int) function c_catch_signals(notice) bind(C, name="rv_posix_catch_signals")
+         import :: c_int, c_char
+         character(kind=c_char), intent(in) :: notice(*)
       end function c_catch_signals
       integer(c_int) function c_signal_seen() bind(C, name="rv_posix_signal_seen")
          import :: c_int
@@ -156,7 +157,8 @@ contains
       integer(i8), intent(in) :: bytes            !! [byte]
       type(error_type), allocatable, intent(out) :: error
 
-      call check(c_reserve(c_text(path), bytes), "write the "//to_text(bytes/1048576 + 1)//" MiB of '"//path//"'", error)
+      call check(c_reserve(c_text(path), bytes), "write the "//to_text(bytes/1048576 + 1)//" MiB of '"//path//"'", &
+         & error)
    end subroutine check_room
 
    !> Make one folder; one that exists is a failure.
@@ -217,7 +219,7 @@ contains
       do while (c_list_next(list, buffer, size(buffer, kind=c_size_t)) == 1)
          n = n + 1
          if (n > size(longer)) longer = [longer, longer]
-         longer(n)%s = from_c(buffer)
+         call from_c(buffer, longer(n)%s)
       end do
       call c_list_close(list)
       name = longer(:n)
@@ -237,10 +239,11 @@ contains
    end subroutine lock_file
 
    !> From now on SIGINT and SIGTERM are only noted, once; for a program, not for a library's caller.
-   subroutine catch_signals(error)
+   subroutine catch_signals(notice, error)
+      character(len=*), intent(in) :: notice      !! written to standard error when one comes; may be empty
       type(error_type), allocatable, intent(out) :: error
 
-      call check(c_catch_signals(), "catch signals", error)
+      call check(c_catch_signals(c_text(notice)), "catch signals", error)
    end subroutine catch_signals
 
    function signal_seen() result(seen)
@@ -278,7 +281,7 @@ contains
       character(kind=c_char) :: buffer(64)
 
       call c_date(buffer, size(buffer, kind=c_size_t))
-      text = from_c(buffer)
+      call from_c(buffer, text)
    end function utc_date
 
    function host_name() result(text)
@@ -286,7 +289,7 @@ contains
       character(kind=c_char) :: buffer(256)
 
       call c_host(buffer, size(buffer, kind=c_size_t))
-      text = from_c(buffer)
+      call from_c(buffer, text)
    end function host_name
 
    function process_number() result(number)
@@ -303,19 +306,18 @@ contains
       character(kind=c_char) :: buffer(40)
 
       call c_number(x, int(digits, c_int), buffer, size(buffer, kind=c_size_t))
-      text = from_c(buffer)
+      call from_c(buffer, text)
    end function number_text
 
    !> The system's own sentence for an error number.
-   function reason_text(number) result(text)
+   subroutine get_reason(number, text)
       integer(c_int), intent(in) :: number
-      character(len=:), allocatable :: text
+      character(len=:), allocatable, intent(out) :: text
       character(kind=c_char) :: buffer(256)
 
       call c_reason(number, buffer, size(buffer, kind=c_size_t))
-      text = from_c(buffer)
-      if (len(text) == 0) text = "error "//to_text(int(number))
-   end function reason_text
+      call from_c(buffer, text)
+   end subroutine get_reason
 
    !> `text` as C wants it. A zero byte inside would cut the name short: it becomes '?'.
    pure function c_text(text) result(copy)
@@ -330,9 +332,13 @@ contains
       copy(len(text) + 1) = c_null_char
    end function c_text
 
-   pure function from_c(buffer) result(text)
+   !> What stands in `buffer` before its zero byte.
+   !>
+   !> No function: gfortran keeps the length of a deferred-length result in a static variable of each call,
+   !> and errors of several threads pass here.
+   pure subroutine from_c(buffer, text)
       character(kind=c_char), intent(in) :: buffer(:)
-      character(len=:), allocatable :: text
+      character(len=:), allocatable, intent(out) :: text
       integer :: n, i
 
       n = 0
@@ -344,14 +350,17 @@ contains
       do i = 1, n
          text(i:i) = buffer(i)
       end do
-   end function from_c
+   end subroutine from_c
 
    subroutine check(number, what, error)
       integer(c_int), intent(in) :: number
       character(len=*), intent(in) :: what
       type(error_type), allocatable, intent(out) :: error
+      character(len=:), allocatable :: reason
 
-      if (number /= 0) call fail(error, rv_io, "cannot "//what//": "//reason_text(number))
+      if (number == 0) return
+      call get_reason(number, reason)
+      call fail(error, rv_io, "cannot "//what//": "//reason)
    end subroutine check
 
 end module rv_posix

@@ -5,7 +5,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-int rv_posix_catch_signals(void);
+int rv_posix_catch_signals(const char *notice);
 int rv_posix_signal_seen(void);
 void rv_posix_reason(int number, char *buffer, size_t size);
 int rv_posix_make_folder(const char *path);

@@ -50,7 +50,7 @@ contains
          line = line//","//self%input(i)%name
       end do
       do i = 1, n_measures
-         line = line//","//measures(i)%name
+         line = line//","//trim(measures(i)%name)
       end do
       call self%file%create(path, error)
       if (.not. allocated(error)) call self%file%put_text(line//",status,message"//newline, error)

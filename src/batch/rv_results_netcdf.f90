@@ -111,11 +111,11 @@ contains
          end do
          do i = 1, n_measures
             call self%note(nf90_put_var(self%file, self%measure_var(i), result%measure(i, :)*self%measure(i)%to_unit, &
-               & [first], [n]), self%measure(i)%name)
+               & [first], [n]), trim(self%measure(i)%name))
          end do
          do i = 1, n_facts
             call self%note(nf90_put_var(self%file, self%fact_var(i), result%fact(i, :)*self%fact(i)%to_unit, &
-               & [first], [n]), self%fact(i)%name)
+               & [first], [n]), trim(self%fact(i)%name))
          end do
          call self%note(nf90_put_var(self%file, self%status_var, int(result%status, int8), [first], [n]), "status")
          call self%note(nf90_put_var(self%file, self%warnings_var, int(result%warnings, int8), [first], [n]), &
@@ -123,7 +123,7 @@ contains
          call self%put_messages(result%message, first)
          do i = 1, merge(n_traces, 0, self%times > 0)
             call self%note(nf90_put_var(self%file, self%trace_var(i), result%trace(:, i, :)*self%trace(i)%to_unit, &
-               & [1, first], [self%times, n]), self%trace(i)%name)
+               & [1, first], [self%times, n]), trim(self%trace(i)%name))
          end do
       end associate
       call self%give_up(error)
@@ -250,14 +250,14 @@ contains
       integer :: i
 
       do i = 1, n_measures
-         self%measure_var(i) = new_variable(self, self%measure(i)%name, nf90_double, [self%case_dim], &
+         self%measure_var(i) = new_variable(self, trim(self%measure(i)%name), nf90_double, [self%case_dim], &
             & [min(cases, chunk_cases)])
-         call self%describe(self%measure_var(i), self%measure(i)%unit, self%measure(i)%long_name)
+         call self%describe(self%measure_var(i), trim(self%measure(i)%unit), trim(self%measure(i)%long_name))
       end do
       do i = 1, n_facts
-         self%fact_var(i) = new_variable(self, self%fact(i)%name, nf90_double, [self%case_dim], &
+         self%fact_var(i) = new_variable(self, trim(self%fact(i)%name), nf90_double, [self%case_dim], &
             & [min(cases, chunk_cases)])
-         call self%describe(self%fact_var(i), self%fact(i)%unit, self%fact(i)%long_name)
+         call self%describe(self%fact_var(i), trim(self%fact(i)%unit), trim(self%fact(i)%long_name))
       end do
    end subroutine define_columns
 
@@ -273,9 +273,9 @@ contains
       self%time_var = new_variable(self, "time_ms", nf90_double, [time_dim], [chunk(1)])
       call self%describe(self%time_var, "ms", "time")
       do i = 1, n_traces
-         self%trace_var(i) = new_variable(self, self%trace(i)%name, nf90_double, [time_dim, self%case_dim], chunk)
-         call self%describe(self%trace_var(i), self%trace(i)%unit, self%trace(i)%long_name)
-         call self%note(nf90_put_att(self%file, self%trace_var(i), "coordinates", "time_ms"), self%trace(i)%name)
+         self%trace_var(i) = new_variable(self, trim(self%trace(i)%name), nf90_double, [time_dim, self%case_dim], chunk)
+         call self%describe(self%trace_var(i), trim(self%trace(i)%unit), trim(self%trace(i)%long_name))
+         call self%note(nf90_put_att(self%file, self%trace_var(i), "coordinates", "time_ms"), trim(self%trace(i)%name))
       end do
    end subroutine define_traces
 

@@ -81,9 +81,10 @@ contains
       outcome%unlocked = .not. folder%has_lock
       call prepare(folder, options, plan, outcome, error)
       if (.not. (allocated(error) .or. outcome%was_complete)) then
-         call log_line(folder, outcome, "run of '"//deck%name//"': "//to_text(plan%manifest%cases)//" cases in " &
-            & //to_text(plan%manifest%blocks)//" blocks, "//to_text(outcome%kept_blocks)//" finished before, " &
-            & //to_text(outcome%threads)//" threads, reedvalve "//code_version)
+         outcome%threads = min(outcome%threads, max(1, size(plan%todo)))
+         call log_line(folder, outcome, "run of '"//deck%name//"' with reedvalve "//code_version//", cases: " &
+            & //to_text(plan%manifest%cases)//", blocks: "//to_text(plan%manifest%blocks)//", finished before: " &
+            & //to_text(outcome%kept_blocks)//", threads: "//to_text(outcome%threads))
          call run_blocks(deck, folder, plan, monitor, outcome, error)
          if (.not. (allocated(error) .or. outcome%stopped)) call merge_parts(folder, plan%manifest, monitor, &
             & outcome%tally, outcome%stopped, error)
@@ -315,14 +316,14 @@ contains
       type(error_type), allocatable, intent(in) :: error
       character(len=:), allocatable :: rate
 
-      rate = to_text(outcome%new_cases)//" cases computed in "//to_text(outcome%seconds, 4)//" s"
+      rate = "cases computed: "//to_text(outcome%new_cases)//", seconds: "//to_text(outcome%seconds, 4)
       if (allocated(error)) then
          call log_line(folder, outcome, "failed, "//rate//": "//error%message)
       else if (outcome%stopped) then
          call log_line(folder, outcome, "stopped on request, "//rate)
       else
-         call log_line(folder, outcome, "finished, "//rate//", "//to_text(outcome%tally%failed)//" of " &
-            & //to_text(outcome%tally%cases)//" cases failed")
+         call log_line(folder, outcome, "finished, "//rate//", cases failed: " &
+            & //to_text(outcome%tally%failed)//" of "//to_text(outcome%tally%cases))
       end if
    end subroutine log_end
 

@@ -1,0 +1,207 @@
+!> The command line, taken apart and checked.
+module rv_cli_arguments
+   use rv_error, only : error_type, fail, rv_bad_input
+   use rv_suggest, only : closest
+   use rv_text, only : text_type
+   implicit none
+   private
+   public :: arguments_type, read_arguments
+
+   type :: arguments_type
+      character(len=:), allocatable :: command   !! "run", ..., "help" or "version"
+      character(len=:), allocatable :: operand   !! the deck, folder or model; empty: none
+      character(len=:), allocatable :: folder    !! -o; empty: none
+      integer :: threads = 0                     !! 0: not given
+      logical :: resume = .false.
+      logical :: force = .false.
+      logical :: quiet = .false.
+   end type arguments_type
+
+   integer, parameter :: most_threads = 1024
+
+   !> A command, the word for its operand, and the options it takes.
+   type :: command_type
+      character(len=8) :: name
+      character(len=8) :: operand
+      logical :: needs_operand
+      character(len=48) :: options
+   end type command_type
+
+   type(command_type), parameter :: commands(7) = [ &
+      & command_type("run", "DECK", .true., "-o --threads --resume --force --quiet"), &
+      & command_type("merge", "DIR", .true., "--quiet"), &
+      & command_type("check", "DECK", .true., "--quiet"), &
+      & command_type("cases", "DECK", .true., "--threads"), &
+      & command_type("template", "MODEL", .false., ""), &
+      & command_type("help", "COMMAND", .false., ""), &
+      & command_type("version", "", .false., "")]
+
+contains
+
+   !> Read the command line of this program.
+   subroutine read_arguments(arguments, error)
+      type(arguments_type), intent(out) :: arguments
+      type(error_type), allocatable, intent(out) :: error
+      character(len=:), allocatable :: word
+      integer :: place, command
+
+      arguments%operand = ""
+      arguments%folder = ""
+      call find_command(arguments%command, command, error)
+      place = 2
+      do while (place <= command_argument_count() .and. .not. allocated(error))
+         word = argument(place)
+         if (word == "--help" .or. word == "-h") then
+            arguments%command = "help"
+            return
+         else if (word(1:min(1, len(word))) == "-" .and. len(word) > 1) then
+            call take_option(arguments, commands(command), place, error)
+         else if (commands(command)%operand == "") then
+            call bad(error, "'"//trim(commands(command)%name)//"' takes nothing more; what is '"//word//"'?")
+         else if (arguments%operand /= "") then
+            call bad(error, "one "//trim(commands(command)%operand)//" at a time: '"//arguments%operand &
+               & //"' and '"//word//"' are two")
+         else
+            arguments%operand = word
+         end if
+         place = place + 1
+      end do
+      if (allocated(error) .or. arguments%operand /= "" .or. .not. commands(command)%needs_operand) return
+      call bad(error, "which "//trim(commands(command)%operand)//"? The command is: reedvalve " &
+         & //trim(commands(command)%name)//" "//trim(commands(command)%operand))
+   end subroutine read_arguments
+
+   !> The first word: a command, or --help or --version.
+   subroutine find_command(name, command, error)
+      character(len=:), allocatable, intent(out) :: name
+      integer, intent(out) :: command
+      type(error_type), allocatable, intent(out) :: error
+      character(len=:), allocatable :: meant
+
+      name = argument(1)
+      if (name == "--help" .or. name == "-h") name = "help"
+      if (name == "--version" .or. name == "-V") name = "version"
+      do command = 1, size(commands)
+         if (commands(command)%name == name) return
+      end do
+      command = 1
+      if (name == "") then
+         call bad(error, "which command? For example: reedvalve run DECK")
+      else if (index(name, ".nml") > 0) then
+         call bad(error, "say what to do with '"//name//"': reedvalve run "//name)
+      else
+         meant = closest(name, word_list(names_of_commands()))
+         if (meant == "") call bad(error, "'"//name//"' is not a command; they are "//names_of_commands())
+         if (meant /= "") call bad(error, "'"//name//"' is not a command; did you mean '"//meant//"'?")
+      end if
+   end subroutine find_command
+
+   !> Take the option at `place`, and its value, which stands behind a '=' or comes next.
+   subroutine take_option(arguments, command, place, error)
+      type(arguments_type), intent(inout) :: arguments
+      type(command_type), intent(in) :: command
+      integer, intent(inout) :: place
+      type(error_type), allocatable, intent(out) :: error
+      character(len=:), allocatable :: option, value, meant
+      logical :: has_value
+
+      option = argument(place)
+      has_value = index(option, "=") > 0
+      value = option(index(option//"=", "=") + 1:)
+      if (has_value) option = option(:index(option, "=") - 1)
+      if (index(" "//trim(command%options)//" ", " "//option//" ") == 0) then
+         meant = closest(option, word_list(trim(command%options)))
+         if (meant /= "") meant = "; did you mean '"//meant//"'?"
+         call bad(error, "'"//trim(command%name)//"' has no option '"//option//"'"//meant)
+         return
+      end if
+      if (option == "-o" .or. option == "--threads") then
+         if (.not. has_value) then
+            place = place + 1
+            value = argument(place)
+         end if
+         if (value == "") then
+            call bad(error, "'"//option//"' needs a value behind it")
+            return
+         end if
+      else if (has_value) then
+         call bad(error, "'"//option//"' takes no value")
+         return
+      end if
+      select case (option)
+      case ("-o")
+         arguments%folder = value
+      case ("--threads")
+         call read_threads(value, arguments%threads, error)
+      case ("--resume")
+         arguments%resume = .true.
+      case ("--force")
+         arguments%force = .true.
+      case default
+         arguments%quiet = .true.
+      end select
+      if (arguments%resume .and. arguments%force) call bad(error, "--resume goes on with an unfinished run, " &
+         & //"--force drops it: choose one")
+   end subroutine take_option
+
+   subroutine read_threads(value, threads, error)
+      character(len=*), intent(in) :: value
+      integer, intent(out) :: threads
+      type(error_type), allocatable, intent(out) :: error
+      integer :: status
+
+      threads = 0
+      status = 1
+      if (verify(value, "0123456789") == 0) read(value, *, iostat=status) threads
+      if (status /= 0 .or. threads < 1 .or. threads > most_threads) call bad(error, "--threads takes a whole number " &
+         & //"from 1 to 1024, not '"//value//"'")
+   end subroutine read_threads
+
+   subroutine bad(error, message)
+      type(error_type), allocatable, intent(out) :: error
+      character(len=*), intent(in) :: message
+
+      call fail(error, rv_bad_input, message)
+   end subroutine bad
+
+   !> An argument of the program; empty if there is none.
+   function argument(place) result(text)
+      integer, intent(in) :: place
+      character(len=:), allocatable :: text
+      integer :: length
+
+      text = ""
+      if (place > command_argument_count()) return
+      call get_command_argument(place, length=length)
+      deallocate(text)
+      allocate(character(len=length) :: text)
+      if (length > 0) call get_command_argument(place, text)
+   end function argument
+
+   !> "run merge check ..."
+   pure function names_of_commands() result(names)
+      character(len=:), allocatable :: names
+      integer :: i
+
+      names = ""
+      do i = 1, size(commands)
+         names = names//trim(commands(i)%name)//" "
+      end do
+      names = trim(names)
+   end function names_of_commands
+
+   pure function word_list(text) result(list)
+      character(len=*), intent(in) :: text        !! words with single blanks between them
+      type(text_type), allocatable :: list(:)
+      integer :: i, first, blank
+
+      allocate(list(count([(text(i:i) == " ", i=1, len(text))]) + 1))
+      first = 1
+      do i = 1, size(list)
+         blank = index(text(first:)//" ", " ")
+         list(i)%s = text(first:first + blank - 2)
+         first = first + blank
+      end do
+   end function word_list
+
+end module rv_cli_arguments

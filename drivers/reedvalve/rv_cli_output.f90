@@ -1,0 +1,81 @@
+!> What the program says, and how it ends. Results of a command go to standard output, all else to standard error.
+module rv_cli_output
+   use, intrinsic :: iso_c_binding, only : c_int
+   use, intrinsic :: iso_fortran_env, only : error_unit, output_unit
+   use rv_error, only : error_type, rv_bad_input, rv_io
+   implicit none
+   private
+   public :: say, complain, status_of, end_program
+   public :: exit_fine, exit_failed, exit_bad, exit_io, exit_internal
+
+   integer, parameter :: exit_fine = 0
+   integer, parameter :: exit_failed = 1     !! some cases failed, or the run was stopped
+   integer, parameter :: exit_bad = 2        !! bad command line or deck
+   integer, parameter :: exit_io = 3         !! input or output trouble
+   integer, parameter :: exit_internal = 4   !! a fault of this code
+
+   interface
+      subroutine c_exit(status) bind(C, name="exit")
+         import :: c_int
+         integer(c_int), value :: status
+      end subroutine c_exit
+      subroutine c_exit_at_once(status) bind(C, name="_exit")
+         import :: c_int
+         integer(c_int), value :: status
+      end subroutine c_exit_at_once
+   end interface
+
+contains
+
+   !> Lines for standard output.
+   subroutine say(text)
+      character(len=*), intent(in) :: text
+      integer :: flag
+
+      write(output_unit, '(a)', iostat=flag) text
+      if (flag /= 0) call lament_output()
+   end subroutine say
+
+   !> A line for standard error.
+   subroutine complain(text)
+      character(len=*), intent(in) :: text
+      integer :: flag
+
+      write(error_unit, '(a)', iostat=flag) "reedvalve: "//text
+      if (flag /= 0) call c_exit_at_once(int(exit_io, c_int))   ! nobody is left to tell
+   end subroutine complain
+
+   !> The exit status for an error of the library.
+   pure integer function status_of(error) result(status)
+      type(error_type), intent(in) :: error
+
+      select case (error%code)
+      case (rv_bad_input)
+         status = exit_bad
+      case (rv_io)
+         status = exit_io
+      case default
+         status = exit_internal
+      end select
+   end function status_of
+
+   !> End the program; what was said must have arrived.
+   subroutine end_program(status)
+      integer, intent(in) :: status
+      integer :: flag
+
+      flush(output_unit, iostat=flag)
+      if (flag /= 0) call lament_output()
+      flush(error_unit)
+      ! HDF5 may crash in its own clean-up after a write that failed for want of room
+      if (status >= exit_io) call c_exit_at_once(int(status, c_int))
+      call c_exit(int(status, c_int))
+   end subroutine end_program
+
+   subroutine lament_output()
+      call complain("cannot write to standard output")
+      flush(error_unit)
+      call c_exit_at_once(int(exit_io, c_int))
+   end subroutine lament_output
+
+end module rv_cli_output

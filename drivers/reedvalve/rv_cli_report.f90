@@ -1,0 +1,140 @@
+!> What a person is told when a run has ended.
+module rv_cli_report
+   use rv_cli_arguments, only : arguments_type
+   use rv_cli_output, only : complain, exit_failed, exit_fine, say, status_of
+   use rv_cli_progress, only : duration_text, rate_text
+   use rv_error, only : error_type
+   use rv_kinds, only : wp, i8
+   use rv_run, only : run_outcome
+   use rv_status, only : n_statuses, n_warnings, status_name, status_ok, warning_name
+   use rv_tally, only : tally_type
+   use rv_text, only : to_text
+   implicit none
+   private
+   public :: report_run, counted
+
+contains
+
+   !> Tell how a run or a merge ended, and what to do next; the exit status.
+   integer function report_run(arguments, folder, outcome, error) result(status)
+      type(arguments_type), intent(in) :: arguments
+      character(len=*), intent(in) :: folder
+      type(run_outcome), intent(in) :: outcome
+      type(error_type), allocatable, intent(in) :: error
+
+      if (outcome%unlocked) call complain("warning: the file system of '"//folder &
+         & //"' has no locks; let no other run work in there at the same time")
+      if (outcome%damaged_blocks > 0) call complain("warning: "//to_text(outcome%damaged_blocks) &
+         & //" part files were damaged; their blocks were run again")
+      if (.not. outcome%logged) call complain("warning: could not write '"//folder//"/run.log'")
+      if (allocated(error)) then
+         call complain(error%message)
+         call tell_kept(arguments, folder, outcome, "when this is put right, go on with")
+         status = status_of(error)
+      else if (outcome%stopped) then
+         call complain("stopped on request")
+         call tell_kept(arguments, folder, outcome, "go on with")
+         status = exit_failed
+      else
+         call tell_failures(outcome%tally, folder)
+         if (.not. arguments%quiet) call tell_results(folder, outcome)
+         status = merge(exit_failed, exit_fine, outcome%tally%failed > 0)
+      end if
+   end function report_run
+
+   subroutine tell_kept(arguments, folder, outcome, go_on)
+      type(arguments_type), intent(in) :: arguments
+      character(len=*), intent(in) :: folder
+      type(run_outcome), intent(in) :: outcome
+      character(len=*), intent(in) :: go_on
+      character(len=:), allocatable :: kept
+      integer :: finished
+
+      finished = outcome%kept_blocks + outcome%new_blocks
+      if (arguments%command == "merge" .and. outcome%blocks > 0) then
+         call complain("the parts are as they were in '"//folder//"/parts'")
+      else if (finished > 0) then
+         kept = to_text(finished)//" of "//to_text(outcome%blocks)//" blocks are finished and kept in '" &
+            & //folder//"/parts'; "//go_on//": reedvalve run "//arguments%operand
+         if (arguments%folder /= "") kept = kept//" -o "//arguments%folder
+         call complain(kept//" --resume")
+      else if (outcome%stopped) then
+         call complain("no block was finished, so there is nothing to resume")
+      end if
+   end subroutine tell_kept
+
+   !> The first failures one by one, and how many there are.
+   subroutine tell_failures(tally, folder)
+      type(tally_type), intent(in) :: tally
+      character(len=*), intent(in) :: folder
+      integer :: i
+
+      do i = 1, tally%named
+         call complain(tally%failure(i)%s)
+      end do
+      if (tally%failed > tally%named .and. tally%named > 0) call complain("and " &
+         & //to_text(tally%failed - tally%named)//" more failed; all of them are in '"//folder//"/summary.csv'")
+   end subroutine tell_failures
+
+   subroutine tell_results(folder, outcome)
+      character(len=*), intent(in) :: folder
+      type(run_outcome), intent(in) :: outcome
+      character(len=:), allocatable :: line
+      integer :: i
+
+      do i = 1, n_warnings
+         if (outcome%tally%warned(i) > 0) call complain("warning: "//to_text(outcome%tally%warned(i)) &
+            & //" of "//to_text(outcome%tally%cases)//" cases are marked "//warning_name(i)//"; the first: " &
+            & //bare(outcome%tally%warning))
+      end do
+      line = counted(outcome%tally%cases, "case")
+      if (outcome%tally%failed == 0) line = line//", none failed."
+      if (outcome%tally%failed > 0) line = line//", "//to_text(outcome%tally%failed)//" failed" &
+         & //kinds(outcome%tally)//"."
+      if (outcome%was_complete) line = line//" They were finished before; nothing was run."
+      if (outcome%new_cases > 0 .and. outcome%kept_blocks > 0) line = line//" "//to_text(outcome%new_cases) &
+         & //" of them were run now, the others before."
+      call say(line)
+      call say("Results: "//folder//"/summary.csv and "//folder//"/results.nc")
+      if (outcome%was_complete) return
+      line = "Time: "//duration_text(outcome%seconds)
+      if (outcome%new_cases > 0) line = line//" with "//counted(int(outcome%threads, i8), "thread")//", " &
+         & //rate_text(real(outcome%new_cases, wp)/max(outcome%seconds, 1.0e-6_wp))
+      call say(line)
+   end subroutine tell_results
+
+   !> ": 2 film_closed, 1 bad_case"
+   pure function kinds(tally) result(text)
+      type(tally_type), intent(in) :: tally
+      character(len=:), allocatable :: text
+      integer :: i
+
+      text = ""
+      do i = 0, n_statuses - 1
+         if (i == status_ok .or. tally%by_status(i) == 0) cycle
+         text = text//", "//to_text(tally%by_status(i))//" "//status_name(i)
+      end do
+      if (text /= "") text = " ("//text(3:)//")"
+   end function kinds
+
+   pure function bare(message) result(text)
+      character(len=:), allocatable, intent(in) :: message
+      character(len=:), allocatable :: text
+
+      text = "see its message"
+      if (.not. allocated(message)) return
+      text = message
+      if (index(text, "warning: ") == 1) text = text(10:)
+   end function bare
+
+   !> "1 thread", "2 threads"
+   pure function counted(n, noun) result(text)
+      integer(i8), intent(in) :: n
+      character(len=*), intent(in) :: noun
+      character(len=:), allocatable :: text
+
+      text = to_text(n)//" "//noun
+      if (n /= 1) text = text//"s"
+   end function counted
+
+end module rv_cli_report
