@@ -9,18 +9,18 @@ module rv_block
    use rv_kinds, only : wp, i8
    use rv_error, only : error_type
    use rv_cases, only : deck_type
-   use rv_columns, only : column_type, measure_columns, fact_columns, trace_columns, n_facts
+   use rv_columns, only : column_type, measure_columns, fact_columns, trace_columns, n_facts, n_traces
    use rv_keys, only : n_keys, kind_trace, key_run_start, key_run_t_end_ms, key_run_traces, key_run_trace_dt_ms, &
       & key_run_block_size, key_pressure_kind, key_pressure_period_ms, key_pressure_transition_ms, key_pressure_file, &
       & key_pressure_event_ms, key_solver_rtol, key_solver_max_steps, key_solver_width
    use rv_lanes, only : lane_outcome, run_lanes
-   use rv_lumped, only : lumped_valve
+   use rv_lumped, only : lumped_lanes, lumped_valve, new_lumped_lanes
    use rv_measures, only : n_measures
    use rv_pressure, only : pressure_history
-   use rv_sampler, only : n_traces
    use rv_sort, only : sorted_order
    use rv_status, only : status_ok, status_bad_case
    use rv_text, only : text_type
+   use rv_valve_lanes, only : valve_lanes
    use rv_valve_case, only : new_valve, new_history, settings_of
    implicit none
    private
@@ -97,6 +97,8 @@ contains
       real(wp), intent(in) :: time(:)
       type(block_result), intent(inout) :: result
       class(pressure_history), allocatable :: history
+      type(lumped_lanes) :: lumped
+      class(valve_lanes), allocatable :: lanes
       type(lane_outcome) :: outcome
       type(error_type), allocatable :: error
       integer :: i
@@ -108,7 +110,9 @@ contains
          end do
          return
       end if
-      call run_lanes(valve, history, settings_of(value), time, outcome)
+      call new_lumped_lanes(lumped, valve)
+      allocate(lanes, source=lumped)
+      call run_lanes(lanes, history, settings_of(value), time, outcome)
       do i = 1, size(place)
          result%measure(:, place(i)) = outcome%measure(:, i)
          result%status(place(i)) = outcome%status(i)

@@ -2,12 +2,12 @@
 module rv_columns
    use rv_kinds, only : wp
    use rv_measures, only : n_measures
-   use rv_sampler, only : n_traces
    implicit none
    private
-   public :: column_type, measure_columns, fact_columns, trace_columns, n_facts
+   public :: column_type, measure_columns, fact_columns, trace_columns, n_facts, n_traces
 
-   integer, parameter :: n_facts = 6  !! numbers of the model behind a case
+   integer, parameter :: n_facts = 6   !! numbers of the model behind a case
+   integer, parameter :: n_traces = 5  !! values in a trace sample
 
    !> One column. Written value = value in SI times to_unit.
    type :: column_type

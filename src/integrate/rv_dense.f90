@@ -5,7 +5,7 @@ module rv_dense
    use rv_kinds, only : wp
    implicit none
    private
-   public :: quintic, value_at, derivative, product_of, first_root
+   public :: quintic, value_at, derivative, first_root
 
 contains
 
@@ -50,18 +50,6 @@ contains
          d(k - 1) = real(k, wp)*c(k)
       end do
    end function derivative
-
-   !> Coefficients of the product of two polynomials.
-   pure function product_of(a, b) result(c)
-      real(wp), intent(in) :: a(0:), b(0:)
-      real(wp) :: c(0:size(a) + size(b) - 2)
-      integer :: i
-
-      c = 0.0_wp
-      do i = 0, size(a) - 1
-         c(i:i + size(b) - 1) = c(i:i + size(b) - 1) + a(i)*b
-      end do
-   end function product_of
 
    !> The root of a polynomial that changes sign between lo and hi, to rounding: Newton held in by bisection.
    pure real(wp) function first_root(c, lo, hi) result(s)

@@ -4,20 +4,20 @@
 !> norm is the largest of the lanes' norms: a case is never less accurate for its company, and a case
 !> that fails is taken out while the others go on.
 module rv_lanes
-   use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
+   use, intrinsic :: ieee_arithmetic, only : ieee_is_finite, ieee_value, ieee_quiet_nan
    use, intrinsic :: iso_c_binding, only : c_char, c_double, c_f_pointer, c_funloc, c_int, c_loc, c_null_char, c_ptr
    use rv_kinds, only : wp
    use rv_arkode, only : rv_arkode_new, rv_arkode_step, rv_arkode_restart, rv_arkode_fix_step, &
       & rv_arkode_worst_lane, rv_arkode_free, arkode_message, rv_at_stop
-   use rv_lumped, only : lumped_lanes, lumped_valve, new_lumped_lanes
    use rv_measures, only : measure_lanes, new_measure_lanes, n_measures
    use rv_pressure, only : pressure_history
-   use rv_sampler, only : sampler_type, new_sampler, n_traces
+   use rv_sampler, only : sampler_type, new_sampler
    use rv_stage, only : solve_stage
    use rv_status, only : status_ok, status_step_too_small, status_film_closed, status_not_finite, &
       & status_too_many_steps, status_no_convergence
    use rv_step, only : step_type, new_step
    use rv_text, only : text_type, to_text
+   use rv_valve_lanes, only : valve_lanes
    implicit none
    private
    public :: lane_settings, lane_outcome, run_lanes
@@ -41,25 +41,28 @@ module rv_lanes
       integer, allocatable :: status(:)          !! status_
       type(text_type), allocatable :: message(:) !! why and when a lane failed, else empty
       real(wp), allocatable :: measure(:, :)     !! (n_measures, width)
-      real(wp), allocatable :: trace(:, :, :)    !! (time, n_traces, width)
+      real(wp), allocatable :: trace(:, :, :)    !! (time, traces, width)
+      real(wp), allocatable :: lowest_pressure(:) !! of the film, relative to the outlet [Pa]
       integer :: steps = 0                       !! accepted
    end type lane_outcome
 
    !> What ARKODE's callbacks see.
    type :: problem_type
-      type(lumped_lanes) :: lanes
+      class(valve_lanes), allocatable :: lanes
       class(pressure_history), allocatable :: history
+      integer :: half = 0                                  !! width*dofs: displacements, and velocities after them
       real(wp) :: rtol = 0.0_wp
-      real(wp), allocatable :: u_scale(:), v_scale(:)  !! added to |u| and |v| in the tolerance [m], [m s-1]
-      real(wp), allocatable :: v_weight(:)             !! last error weights of v [s m-1]
-      integer :: worst_lane = 0                        !! lane whose stage had no solution last
+      real(wp), allocatable :: q_scale(:, :), v_scale(:, :)  !! added to |q| and |v| in the tolerance
+      real(wp), allocatable :: v_weight(:, :)                !! last error weights of v
+      integer :: failed = 0                                !! lane whose stage had no solution last
+      logical :: closed = .false.                          !! because its film was closed
    end type problem_type
 
 contains
 
-   !> Integrate all cases from the start of the history to settings%t_end.
-   subroutine run_lanes(valve, history, settings, trace_time, outcome)
-      type(lumped_valve), intent(in) :: valve(:)
+   !> Integrate all cases from the start of the history to settings%t_end. The lanes are used up.
+   subroutine run_lanes(lanes, history, settings, trace_time, outcome)
+      class(valve_lanes), allocatable, intent(inout) :: lanes
       class(pressure_history), intent(in) :: history
       type(lane_settings), intent(in) :: settings
       real(wp), intent(in) :: trace_time(:)     !! [s], rising; may be empty
@@ -69,38 +72,75 @@ contains
       type(sampler_type) :: sampler
       type(step_type) :: step
       type(c_ptr) :: integrator
-      real(wp) :: inlet, outlet
-      real(c_double) :: y(2*size(valve))
+      real(c_double), allocatable :: y(:)
       integer :: w, i
 
-      w = size(valve)
+      w = lanes%width
       allocate(outcome%status(w), source=status_ok)
       allocate(outcome%message(w))
       do i = 1, w
          outcome%message(i)%s = ""
       end do
-      call pose(problem, valve, history, settings%rtol)
-      y = 0.0_wp
-      call history%factors(history%start, inlet, outlet)
-      if (settings%from_equilibrium) y(:w) = valve%equilibrium(inlet, outlet)
+      call pose(problem, lanes, history, settings%rtol)
+      allocate(y(2*problem%half))
+      call initial_state(problem, settings%from_equilibrium, y, outcome)
       call begin_step(problem, history%start, y, step)
-      call history%factors(history%event, inlet, outlet)
       call new_measure_lanes(measures, history%start, history%event, min(history%cycle_end, settings%t_end), &
-         & valve%equilibrium(inlet, outlet), y(:w), problem%lanes%gap, problem%lanes%squeeze)
-      call new_sampler(sampler, trace_time, w)
+         & steady_state(problem), step%u1)
+      call new_sampler(sampler, trace_time, problem%lanes)
       call sampler%sample(step, problem%lanes, history)
 
-      if (start_integrator(problem, settings, y, integrator, outcome)) then
-         call integrate(problem, settings, history%stops(settings%t_end), integrator, y, step, measures, sampler, outcome)
+      if (any(outcome%status == status_ok)) then
+         if (start_integrator(problem, settings, y, integrator, outcome)) then
+            call integrate(problem, settings, history%stops(settings%t_end), integrator, y, step, measures, sampler, outcome)
+         end if
+         call rv_arkode_free(integrator)
       end if
-      call rv_arkode_free(integrator)
 
       allocate(outcome%measure(n_measures, w))
       do i = 1, w
          outcome%measure(:, i) = measures%results(i)
       end do
+      outcome%lowest_pressure = problem%lanes%lowest_pressure
       call move_alloc(sampler%value, outcome%trace)
    end subroutine run_lanes
+
+   !> Initial state: at rest on u = 0, or at the static equilibrium. A lane that has none is taken out.
+   subroutine initial_state(problem, from_equilibrium, y, outcome)
+      type(problem_type), intent(inout) :: problem
+      logical, intent(in) :: from_equilibrium
+      real(c_double), intent(out) :: y(:)
+      type(lane_outcome), intent(inout) :: outcome
+      real(wp) :: q(problem%lanes%width, problem%lanes%dofs), inlet, outlet
+      logical :: found(problem%lanes%width)
+      integer :: i
+
+      y = 0.0_wp
+      if (.not. from_equilibrium) return
+      call problem%history%factors(problem%history%start, inlet, outlet)
+      call problem%lanes%equilibrium(inlet, outlet, q, found)
+      do i = 1, problem%lanes%width
+         if (found(i)) cycle
+         outcome%status(i) = status_film_closed
+         outcome%message(i)%s = "at t = "//to_text(problem%history%start, 6) &
+            & //" s: no static equilibrium to start from, the pressure closes the film under the reed"
+         call problem%lanes%silence(i)
+         q(i, :) = 0.0_wp
+      end do
+      y(:problem%half) = reshape(q, [problem%half])
+   end subroutine initial_state
+
+   !> Static tip displacement at the event [m]; NaN where the reed would lie on its seat.
+   function steady_state(problem) result(u)
+      type(problem_type), intent(inout) :: problem
+      real(wp) :: u(problem%lanes%width)
+      real(wp) :: q(problem%lanes%width, problem%lanes%dofs), inlet, outlet
+      logical :: found(problem%lanes%width)
+
+      call problem%history%factors(problem%history%event, inlet, outlet)
+      call problem%lanes%equilibrium(inlet, outlet, q, found)
+      u = merge(matmul(q, problem%lanes%tip), ieee_value(1.0_wp, ieee_quiet_nan), found)
+   end function steady_state
 
    !> March from stop to stop; a failing lane is taken out and the march resumed.
    subroutine integrate(problem, settings, stops, integrator, y, step, measures, sampler, outcome)
@@ -125,7 +165,7 @@ contains
             y = y_new
             if (flag == rv_at_stop) t = stops(k)
             call end_step(problem, t, y, step)
-            call measures%observe(step)
+            call measures%observe(step, problem%lanes, problem%history)
             call sampler%sample(step, problem%lanes, problem%history)
             call step%advance()
             outcome%steps = outcome%steps + 1
@@ -156,21 +196,24 @@ contains
       real(c_double), intent(in) :: y_new(:)
       type(lane_outcome), intent(inout) :: outcome
       integer :: lane, w, status
-      real(wp) :: film
       character(len=:), allocatable :: reason
 
       w = problem%lanes%width
-      lane = 0
       if (flag >= 0) then
          do lane = 1, w
-            if (.not. (ieee_is_finite(y_new(lane)) .and. ieee_is_finite(y_new(w + lane)))) exit
+            if (.not. all(ieee_is_finite(y_new(lane::w)))) exit
          end do
          status = status_not_finite
          reason = "the state is not finite"
-      else if (problem%worst_lane > 0) then
-         lane = problem%worst_lane
+      else if (problem%failed > 0) then
+         lane = problem%failed
          status = status_no_convergence
          reason = arkode_message(integrator)
+         if (problem%closed) then
+            status = status_film_closed
+            reason = "the film under the reed has closed; its tip is at u = " &
+               & //to_text(1.0e3_wp*step%u1(lane), 6)//" mm"
+         end if
       else
          lane = rv_arkode_worst_lane(integrator) + 1
          status = status_step_too_small
@@ -180,17 +223,11 @@ contains
          call fail_rest(outcome, status, "at t = "//to_text(step%t1, 6)//" s: "//reason)
          return
       end if
-      film = y(lane) + problem%lanes%gap(lane)
-      if (problem%lanes%squeeze(lane) > 0.0_wp .and. film <= 1.0e-3_wp*problem%lanes%gap(lane)) then
-         status = status_film_closed
-         reason = "the film under the reed has closed to "//to_text(film, 3)//" m"
-      end if
       outcome%status(lane) = status
       outcome%message(lane)%s = "at t = "//to_text(step%t1, 6)//" s: "//reason
       call problem%lanes%silence(lane)
-      problem%worst_lane = 0
-      y(lane) = 0.0_wp
-      y(w + lane) = 0.0_wp
+      problem%failed = 0
+      y(lane::w) = 0.0_wp
       call begin_step(problem, step%t1, y, step)
    end subroutine take_out
 
@@ -207,25 +244,25 @@ contains
       end do
    end subroutine fail_rest
 
-   !> The tolerance's scales: the largest static displacement, for a squeeze film at most ten gaps (the film's
-   !> force follows (u + g0)^-3), and that length times the natural frequency.
-   subroutine pose(problem, valve, history, rtol)
+   subroutine pose(problem, lanes, history, rtol)
       type(problem_type), intent(out) :: problem
-      type(lumped_valve), intent(in) :: valve(:)
+      class(valve_lanes), allocatable, intent(inout) :: lanes
       class(pressure_history), intent(in) :: history
       real(wp), intent(in) :: rtol
+      real(wp) :: span(lanes%width)
       integer :: i
 
-      call new_lumped_lanes(problem%lanes, valve)
+      call move_alloc(lanes, problem%lanes)
       allocate(problem%history, source=history)
       problem%rtol = rtol
-      allocate(problem%u_scale(size(valve)), problem%v_scale(size(valve)), problem%v_weight(size(valve)))
-      do i = 1, size(valve)
-         problem%u_scale(i) = history%span(valve(i)%inlet, valve(i)%outlet)*valve(i)%area/valve(i)%stiffness
-      end do
-      where (valve%squeeze > 0.0_wp) problem%u_scale = min(problem%u_scale, 10.0_wp*valve%gap)
-      where (.not. problem%u_scale > 0.0_wp) problem%u_scale = 1.0e-3_wp*valve%gap
-      problem%v_scale = problem%u_scale*sqrt(valve%stiffness/valve%mass)
+      associate (w => problem%lanes%width, dofs => problem%lanes%dofs)
+         problem%half = w*dofs
+         allocate(problem%q_scale(w, dofs), problem%v_scale(w, dofs))
+         do i = 1, w
+            span(i) = history%span(problem%lanes%inlet(i), problem%lanes%outlet(i))
+         end do
+      end associate
+      call problem%lanes%scales(span, problem%q_scale, problem%v_scale)
       problem%v_weight = 1.0_wp/(rtol*problem%v_scale)
    end subroutine pose
 
@@ -238,7 +275,8 @@ contains
       character(kind=c_char, len=*), parameter :: table = butcher_table//c_null_char
       integer(c_int) :: flag
 
-      flag = rv_arkode_new(int(problem%lanes%width, c_int), 2_c_int, problem%history%start, y, table, &
+      flag = rv_arkode_new(int(problem%lanes%width, c_int), int(2*problem%lanes%dofs, c_int), &
+         & problem%history%start, y, table, &
          & c_funloc(rhs), c_funloc(stage), c_funloc(weights), c_loc(problem), integrator)
       if (flag >= 0 .and. settings%fixed_step > 0.0_wp) flag = rv_arkode_fix_step(integrator, settings%fixed_step)
       started = flag >= 0
@@ -246,34 +284,40 @@ contains
    end function start_integrator
 
    subroutine begin_step(problem, t, y, step)
-      type(problem_type), intent(in) :: problem
+      type(problem_type), intent(inout) :: problem
       real(wp), intent(in) :: t
       real(c_double), intent(in) :: y(:)
       type(step_type), intent(out) :: step
-      real(wp) :: a(problem%lanes%width), inlet, outlet
-      integer :: w
+      real(wp), dimension(problem%lanes%width, problem%lanes%dofs) :: q, v, a
 
-      w = problem%lanes%width
-      call problem%history%factors(t, inlet, outlet)
-      call problem%lanes%acceleration(inlet, outlet, y(:w), y(w + 1:), a)
-      call new_step(step, t, y(:w), y(w + 1:), a)
+      call unpack_state(problem, t, y, q, v, a)
+      call new_step(step, t, q, v, a, problem%lanes%tip)
    end subroutine begin_step
 
    subroutine end_step(problem, t, y, step)
-      type(problem_type), intent(in) :: problem
+      type(problem_type), intent(inout) :: problem
       real(wp), intent(in) :: t
       real(c_double), intent(in) :: y(:)
       type(step_type), intent(inout) :: step
-      real(wp) :: inlet, outlet
-      integer :: w
+      real(wp), dimension(problem%lanes%width, problem%lanes%dofs) :: q, v, a
 
-      w = problem%lanes%width
-      step%t1 = t
-      step%u1(:) = y(:w)
-      step%v1(:) = y(w + 1:)
-      call problem%history%factors(t, inlet, outlet)
-      call problem%lanes%acceleration(inlet, outlet, step%u1, step%v1, step%a1)
+      call unpack_state(problem, t, y, q, v, a)
+      call step%land(t, q, v, a)
    end subroutine end_step
+
+   subroutine unpack_state(problem, t, y, q, v, a)
+      type(problem_type), intent(inout) :: problem
+      real(wp), intent(in) :: t
+      real(c_double), intent(in) :: y(:)
+      real(wp), intent(out) :: q(:, :), v(:, :), a(:, :)
+      real(wp) :: inlet, outlet
+      integer :: closed
+
+      q = reshape(y(:problem%half), shape(q))
+      v = reshape(y(problem%half + 1:), shape(v))
+      call problem%history%factors(t, inlet, outlet)
+      call problem%lanes%acceleration(inlet, outlet, q, v, a, closed)
+   end subroutine unpack_state
 
    !> ARKODE's right-hand side. 1 where a film is closed: ARKODE then tries a smaller step.
    integer(c_int) function rhs(t, y, ydot, data) bind(C)
@@ -283,14 +327,19 @@ contains
       type(c_ptr), value :: data
       type(problem_type), pointer :: problem
       real(wp) :: inlet, outlet
-      integer :: w
+      integer :: closed
 
       call c_f_pointer(data, problem)
-      w = problem%lanes%width
-      call problem%history%factors(t, inlet, outlet)
-      call problem%lanes%acceleration(inlet, outlet, y(:w), y(w + 1:2*w), ydot(w + 1:2*w))
-      ydot(:w) = y(w + 1:2*w)
-      rhs = merge(0_c_int, 1_c_int, all(y(:w) + problem%lanes%gap > 0.0_wp))
+      associate (n => problem%half)
+         call problem%history%factors(t, inlet, outlet)
+         call problem%lanes%acceleration(inlet, outlet, y(:n), y(n + 1:2*n), ydot(n + 1:2*n), closed)
+         ydot(:n) = y(n + 1:2*n)
+      end associate
+      rhs = 0
+      if (closed == 0) return
+      problem%failed = closed
+      problem%closed = .true.
+      rhs = 1
    end function rhs
 
    !> ARKODE's stage. 1 where a lane has no solution.
@@ -301,14 +350,14 @@ contains
       type(c_ptr), value :: data
       type(problem_type), pointer :: problem
       real(wp) :: inlet, outlet
-      integer :: w
 
       call c_f_pointer(data, problem)
-      w = problem%lanes%width
-      call problem%history%factors(t, inlet, outlet)
-      call solve_stage(problem%lanes, inlet, outlet, gamma, base(:w), base(w + 1:2*w), problem%v_weight, &
-         & z(:w), z(w + 1:2*w), problem%worst_lane)
-      stage = merge(0_c_int, 1_c_int, problem%worst_lane == 0)
+      associate (n => problem%half)
+         call problem%history%factors(t, inlet, outlet)
+         call solve_stage(problem%lanes, inlet, outlet, gamma, base(:n), base(n + 1:2*n), problem%v_weight, &
+            & z(:n), z(n + 1:2*n), problem%failed, problem%closed)
+      end associate
+      stage = merge(0_c_int, 1_c_int, problem%failed == 0)
    end function stage
 
    !> ARKODE's error weights: one over rtol (|y| + scale).
@@ -317,13 +366,19 @@ contains
       real(c_double), intent(inout) :: weight(*)
       type(c_ptr), value :: data
       type(problem_type), pointer :: problem
-      integer :: w
+      integer :: w, k, lo, hi
 
       call c_f_pointer(data, problem)
       w = problem%lanes%width
-      weight(:w) = 1.0_wp/(problem%rtol*(abs(y(:w)) + problem%u_scale))
-      weight(w + 1:2*w) = 1.0_wp/(problem%rtol*(abs(y(w + 1:2*w)) + problem%v_scale))
-      problem%v_weight(:) = weight(w + 1:2*w)
+      do k = 1, problem%lanes%dofs
+         lo = (k - 1)*w + 1
+         hi = k*w
+         weight(lo:hi) = 1.0_wp/(problem%rtol*(abs(y(lo:hi)) + problem%q_scale(:, k)))
+         lo = lo + problem%half
+         hi = hi + problem%half
+         weight(lo:hi) = 1.0_wp/(problem%rtol*(abs(y(lo:hi)) + problem%v_scale(:, k)))
+         problem%v_weight(:, k) = weight(lo:hi)
+      end do
       weights = 0
    end function weights
 

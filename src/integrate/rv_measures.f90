@@ -6,8 +6,10 @@
 module rv_measures
    use, intrinsic :: ieee_arithmetic, only : ieee_value, ieee_quiet_nan
    use rv_kinds, only : wp
-   use rv_dense, only : value_at, derivative, product_of, first_root
+   use rv_dense, only : value_at, derivative, first_root
+   use rv_pressure, only : pressure_history
    use rv_step, only : step_type
+   use rv_valve_lanes, only : valve_lanes
    implicit none
    private
    public :: measure_lanes, new_measure_lanes, n_measures
@@ -26,13 +28,12 @@ module rv_measures
       real(wp) :: cycle_end = 0.0_wp  !! end of what is measured [s]
       real(wp) :: reached = 0.0_wp    !! last instant seen [s]
       real(wp), allocatable :: steady(:)          !! [m]
-      real(wp), allocatable :: gap(:)             !! g0 [m]
-      real(wp), allocatable :: squeeze(:)         !! C [N s m2]
       real(wp), allocatable :: up(:, :)           !! instants of the upward crossings [s]
       real(wp), allocatable :: down(:, :)         !! instants of the downward crossings [s]
       real(wp), allocatable :: highest(:)         !! largest u while opening [m]
       real(wp), allocatable :: lowest(:)          !! smallest u while closing [m]
       real(wp), allocatable :: largest_force(:)   !! largest film force against closing [N]
+      real(wp), allocatable :: rate(:)            !! rate of change of that force at the end of the last step [N s-1]
    contains
       procedure :: observe
       procedure :: results
@@ -41,40 +42,45 @@ module rv_measures
 contains
 
    !> Begin at the initial state.
-   pure subroutine new_measure_lanes(self, start, event, cycle_end, steady, u, gap, squeeze)
+   pure subroutine new_measure_lanes(self, start, event, cycle_end, steady, u)
       type(measure_lanes), intent(out) :: self
       real(wp), intent(in) :: start, event, cycle_end   !! [s]
       real(wp), intent(in) :: steady(:)                 !! [m]
       real(wp), intent(in) :: u(:)                      !! initial displacement [m]
-      real(wp), intent(in) :: gap(:)                    !! [m]
-      real(wp), intent(in) :: squeeze(:)                !! [N s m2]
 
       self%start = start
       self%event = event
       self%cycle_end = cycle_end
       self%reached = start
       self%steady = steady
-      self%gap = gap
-      self%squeeze = squeeze
       allocate(self%up(n_up, size(u)), self%down(n_down, size(u)))
       self%up = ieee_value(1.0_wp, ieee_quiet_nan)
       self%down = self%up(1, 1)
       self%highest = u
       self%lowest = u
-      allocate(self%largest_force(size(u)), source=0.0_wp)
+      allocate(self%largest_force(size(u)), self%rate(size(u)), source=0.0_wp)
    end subroutine new_measure_lanes
 
    !> Take one more step into account. Steps come in order and none spans the event.
-   subroutine observe(self, step)
+   subroutine observe(self, step, lanes, history)
       class(measure_lanes), intent(inout) :: self
       type(step_type), intent(in) :: step
+      class(valve_lanes), intent(inout) :: lanes
+      class(pressure_history), intent(in) :: history
+      real(wp) :: inlet, outlet, force, rate
       integer :: i
 
       if (step%t0 >= self%cycle_end) return
       self%reached = step%t1
       if (step%t0 <= self%event) self%lowest = step%u0
+      call history%factors(step%t1, inlet, outlet)
       do i = 1, step%width
          call observe_lane(self, step, i)
+         if (.not. lanes%has_film(i)) cycle
+         call lanes%film_force(i, inlet, outlet, step%q1(i, :), step%v1(i, :), step%a1(i, :), force, rate)
+         self%largest_force(i) = max(self%largest_force(i), force)
+         if (self%rate(i) > 0.0_wp .and. rate < 0.0_wp) call find_peak(self, step, i, lanes, history)
+         self%rate(i) = rate
       end do
    end subroutine observe
 
@@ -85,8 +91,8 @@ contains
       real(wp) :: c(0:5), turn, u_turn
       logical :: turns
 
-      turns = step%v0(i)*step%v1(i) < 0.0_wp
-      if (turns .or. crosses_level(self, step, i)) c = step%path(i)
+      turns = step%w0(i)*step%w1(i) < 0.0_wp
+      if (turns .or. crosses_level(self, step, i)) c = step%tip_path(i)
       if (.not. turns) then
          call look(step%u0(i), step%u1(i), 0.0_wp, 1.0_wp)
       else
@@ -95,7 +101,6 @@ contains
          call look(step%u0(i), u_turn, 0.0_wp, turn)
          call look(u_turn, step%u1(i), turn, 1.0_wp)
       end if
-      if (self%squeeze(i) > 0.0_wp .and. min(step%v0(i), step%v1(i)) < 0.0_wp) call look_at_force(self, step, i)
 
    contains
 
@@ -149,26 +154,51 @@ contains
          & .or. any(lo <= down_level*self%steady(i) .and. down_level*self%steady(i) <= hi)
    end function crosses_level
 
-   !> Largest force -C v/h^3 with v < 0: at the ends, and where a h - 3 v^2 turns from - to + between them.
-   pure subroutine look_at_force(self, step, i)
+   !> The film force has a maximum within the step: bisect its rate.
+   subroutine find_peak(self, step, i, lanes, history)
       class(measure_lanes), intent(inout) :: self
       type(step_type), intent(in) :: step
       integer, intent(in) :: i
-      real(wp) :: h0, h1, g(0:8), film(0:5), speed(0:4), s, dt
+      class(valve_lanes), intent(inout) :: lanes
+      class(pressure_history), intent(in) :: history
+      real(wp) :: path(0:5, lanes%dofs), left, right, s
+      integer :: k
 
-      h0 = step%u0(i) + self%gap(i)
-      h1 = step%u1(i) + self%gap(i)
-      self%largest_force(i) = max(self%largest_force(i), -self%squeeze(i)*step%v1(i)/h1**3)
-      if (step%a0(i)*h0 - 3.0_wp*step%v0(i)**2 >= 0.0_wp) return
-      if (step%a1(i)*h1 - 3.0_wp*step%v1(i)**2 <= 0.0_wp) return
-      dt = step%t1 - step%t0
-      film = step%path(i)
-      film(0) = film(0) + self%gap(i)
-      speed = derivative(film)
-      g = product_of(derivative(speed), film) - 3.0_wp*product_of(speed, speed)
-      s = first_root(g, 0.0_wp, 1.0_wp)
-      self%largest_force(i) = max(self%largest_force(i), -self%squeeze(i)*value_at(speed, s)/dt/value_at(film, s)**3)
-   end subroutine look_at_force
+      do k = 1, lanes%dofs
+         path(:, k) = step%path(i, k)
+      end do
+      left = 0.0_wp
+      right = 1.0_wp
+      do while (right - left > sqrt(epsilon(1.0_wp)))   ! the force is flat there: its error is of order epsilon
+         s = 0.5_wp*(left + right)
+         if (rate_at(s) > 0.0_wp) then
+            left = s
+         else
+            right = s
+         end if
+      end do
+
+   contains
+
+      !> Rate of the force at s; notes the force.
+      real(wp) function rate_at(s) result(rate)
+         real(wp), intent(in) :: s
+         real(wp), dimension(lanes%dofs) :: q, v, a
+         real(wp) :: dt, inlet, outlet, force
+         integer :: j
+
+         dt = step%t1 - step%t0
+         do j = 1, lanes%dofs
+            q(j) = value_at(path(:, j), s)
+            v(j) = value_at(derivative(path(:, j)), s)/dt
+            a(j) = value_at(derivative(derivative(path(:, j))), s)/dt**2
+         end do
+         call history%factors(step%t0 + s*dt, inlet, outlet)
+         call lanes%film_force(i, inlet, outlet, q, v, a, force, rate)
+         self%largest_force(i) = max(self%largest_force(i), force)
+      end function rate_at
+
+   end subroutine find_peak
 
    !> The measures of lane i in the order of n_measures: m, s, s, m, s, s, s, m, N.
    pure function results(self, i) result(measure)

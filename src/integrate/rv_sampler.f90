@@ -3,19 +3,17 @@ module rv_sampler
    use, intrinsic :: ieee_arithmetic, only : ieee_value, ieee_quiet_nan
    use rv_kinds, only : wp
    use rv_dense, only : value_at, derivative
-   use rv_lumped, only : lumped_lanes
    use rv_pressure, only : pressure_history
    use rv_step, only : step_type
+   use rv_valve_lanes, only : valve_lanes
    implicit none
    private
-   public :: sampler_type, new_sampler, n_traces
-
-   integer, parameter :: n_traces = 5  !! displacement, velocity, inlet, outlet, film force: m, m s-1, Pa, Pa, N
+   public :: sampler_type, new_sampler
 
    !> Samples taken so far.
    type :: sampler_type
       real(wp), allocatable :: time(:)        !! the grid [s], rising
-      real(wp), allocatable :: value(:, :, :) !! (time, n_traces, width); NaN where the case did not get to
+      real(wp), allocatable :: value(:, :, :) !! (time, traces, width); NaN where the case did not get to
       integer, private :: next = 1            !! first grid time still to be sampled
    contains
       procedure :: sample
@@ -23,52 +21,56 @@ module rv_sampler
 
 contains
 
-   pure subroutine new_sampler(self, time, width)
+   pure subroutine new_sampler(self, time, lanes)
       type(sampler_type), intent(out) :: self
       real(wp), intent(in) :: time(:)
-      integer, intent(in) :: width
+      class(valve_lanes), intent(in) :: lanes
 
       self%time = time
-      allocate(self%value(size(time), n_traces, width), source=ieee_value(1.0_wp, ieee_quiet_nan))
+      allocate(self%value(size(time), lanes%traces, lanes%width), source=ieee_value(1.0_wp, ieee_quiet_nan))
    end subroutine new_sampler
 
    !> Fill the grid up to the end of a step. A step of no length samples its instant.
-   pure subroutine sample(self, step, lanes, history)
+   subroutine sample(self, step, lanes, history)
       class(sampler_type), intent(inout) :: self
       type(step_type), intent(in) :: step
-      type(lumped_lanes), intent(in) :: lanes
+      class(valve_lanes), intent(inout) :: lanes
       class(pressure_history), intent(in) :: history
-      real(wp), dimension(step%width) :: u, v, force
-      real(wp) :: h, s, c(0:5), inlet, outlet
+      real(wp) :: t, inlet, outlet
+      real(wp), dimension(lanes%dofs) :: q, v
       integer :: i
 
-      h = step%t1 - step%t0
       do while (self%next <= size(self%time))
-         if (self%time(self%next) > step%t1) return
-         if (self%time(self%next) < step%t0) then   ! before the start of this case
-            self%next = self%next + 1
-            cycle
-         end if
-         if (h > 0.0_wp) then
-            s = (self%time(self%next) - step%t0)/h
+         t = self%time(self%next)
+         if (t > step%t1) return
+         if (t >= step%t0) then   ! else before the start of this case
+            call history%factors(t, inlet, outlet)
             do i = 1, step%width
-               c = step%path(i)
-               u(i) = value_at(c, s)
-               v(i) = value_at(derivative(c), s)/h
+               call state_at(step, i, t, q, v)
+               call lanes%trace_values(i, inlet, outlet, q, v, self%value(self%next, :, i))
             end do
-         else
-            u = step%u1
-            v = step%v1
          end if
-         call history%factors(self%time(self%next), inlet, outlet)
-         call lanes%film_force(u, v, force)
-         self%value(self%next, 1, :) = u
-         self%value(self%next, 2, :) = v
-         self%value(self%next, 3, :) = lanes%inlet*inlet
-         self%value(self%next, 4, :) = lanes%outlet*outlet
-         self%value(self%next, 5, :) = force
          self%next = self%next + 1
       end do
    end subroutine sample
+
+   pure subroutine state_at(step, i, t, q, v)
+      type(step_type), intent(in) :: step
+      integer, intent(in) :: i
+      real(wp), intent(in) :: t
+      real(wp), intent(out) :: q(:), v(:)
+      real(wp) :: h, c(0:5)
+      integer :: k
+
+      h = step%t1 - step%t0
+      q = step%q1(i, :)
+      v = step%v1(i, :)
+      if (.not. h > 0.0_wp) return
+      do k = 1, size(q)
+         c = step%path(i, k)
+         q(k) = value_at(c, (t - step%t0)/h)
+         v(k) = value_at(derivative(c), (t - step%t0)/h)/h
+      end do
+   end subroutine state_at
 
 end module rv_sampler

@@ -1,4 +1,4 @@
-!> One accepted step of a group of lanes: tip displacement, velocity and acceleration at both ends.
+!> One accepted step of a group of lanes: displacements, velocities and accelerations at both ends.
 module rv_step
    use rv_kinds, only : wp
    use rv_dense, only : quintic
@@ -6,34 +6,45 @@ module rv_step
    private
    public :: step_type, new_step
 
-   !> All arrays are (width).
+   !> Arrays of states are (width, dofs), of the tip (width).
    type :: step_type
       integer :: width = 0
-      real(wp) :: t0 = 0.0_wp, t1 = 0.0_wp                 !! the step's ends [s]
-      real(wp), allocatable :: u0(:), v0(:), a0(:)         !! at t0 [m], [m s-1], [m s-2]
-      real(wp), allocatable :: u1(:), v1(:), a1(:)         !! at t1
+      real(wp) :: t0 = 0.0_wp, t1 = 0.0_wp                     !! the step's ends [s]
+      real(wp), allocatable :: q0(:, :), v0(:, :), a0(:, :)    !! at t0
+      real(wp), allocatable :: q1(:, :), v1(:, :), a1(:, :)    !! at t1
+      real(wp), allocatable :: u0(:), u1(:)                    !! tip displacement at t0 and t1 [m]
+      real(wp), allocatable :: w0(:), w1(:)                    !! tip velocity [m s-1]
+      real(wp), allocatable, private :: tip(:)                 !! tip displacement per unit of each q, (dofs)
    contains
-      procedure :: path
       procedure :: advance
+      procedure :: land
+      procedure :: path
+      procedure :: tip_path
    end type step_type
 
 contains
 
    !> A step of no length at t.
-   pure subroutine new_step(self, t, u, v, a)
+   pure subroutine new_step(self, t, q, v, a, tip)
       type(step_type), intent(out) :: self
       real(wp), intent(in) :: t
-      real(wp), intent(in) :: u(:), v(:), a(:)
+      real(wp), intent(in) :: q(:, :), v(:, :), a(:, :)
+      real(wp), intent(in) :: tip(:)
 
-      self%width = size(u)
-      self%t0 = t
-      self%t1 = t
-      self%u0 = u
-      self%v0 = v
-      self%a0 = a
-      self%u1 = u
+      self%width = size(q, 1)
+      self%tip = tip
+      self%q1 = q
       self%v1 = v
       self%a1 = a
+      self%u1 = matmul(q, tip)
+      self%w1 = matmul(v, tip)
+      self%t1 = t
+      self%q0 = q
+      self%v0 = v
+      self%a0 = a
+      self%u0 = self%u1
+      self%w0 = self%w1
+      self%t0 = t
    end subroutine new_step
 
    !> Let the next step begin where this one ended.
@@ -41,18 +52,48 @@ contains
       class(step_type), intent(inout) :: self
 
       self%t0 = self%t1
+      self%q0(:, :) = self%q1
+      self%v0(:, :) = self%v1
+      self%a0(:, :) = self%a1
       self%u0(:) = self%u1
-      self%v0(:) = self%v1
-      self%a0(:) = self%a1
+      self%w0(:) = self%w1
    end subroutine advance
 
-   !> Dense output of lane i: coefficients of u(s), s = (t - t0)/(t1 - t0).
-   pure function path(self, i) result(c)
+   !> End the step at t1.
+   pure subroutine land(self, t1, q, v, a)
+      class(step_type), intent(inout) :: self
+      real(wp), intent(in) :: t1
+      real(wp), intent(in) :: q(:, :), v(:, :), a(:, :)
+
+      self%t1 = t1
+      self%q1(:, :) = q
+      self%v1(:, :) = v
+      self%a1(:, :) = a
+      self%u1(:) = matmul(q, self%tip)
+      self%w1(:) = matmul(v, self%tip)
+   end subroutine land
+
+   !> Dense output of displacement k of lane i: coefficients of q(s), s = (t - t0)/(t1 - t0).
+   pure function path(self, i, k) result(c)
+      class(step_type), intent(in) :: self
+      integer, intent(in) :: i, k
+      real(wp) :: c(0:5)
+
+      c = quintic(self%t1 - self%t0, self%q0(i, k), self%v0(i, k), self%a0(i, k), &
+         & self%q1(i, k), self%v1(i, k), self%a1(i, k))
+   end function path
+
+   !> Dense output of the tip displacement of lane i [m].
+   pure function tip_path(self, i) result(c)
       class(step_type), intent(in) :: self
       integer, intent(in) :: i
-      real(wp) :: c(0:5)   !! [m]
+      real(wp) :: c(0:5)
+      integer :: k
 
-      c = quintic(self%t1 - self%t0, self%u0(i), self%v0(i), self%a0(i), self%u1(i), self%v1(i), self%a1(i))
-   end function path
+      c = 0.0_wp
+      do k = 1, size(self%tip)
+         c = c + self%tip(k)*self%path(i, k)
+      end do
+   end function tip_path
 
 end module rv_step

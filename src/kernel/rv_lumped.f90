@@ -7,6 +7,7 @@
 !> Eq. (27) has C = 0. The cases of a group are lanes: structure of arrays, one entry a case.
 module rv_lumped
    use rv_kinds, only : wp
+   use rv_valve_lanes, only : valve_lanes, no_film_gap
    implicit none
    private
    public :: lumped_valve, lumped_lanes, new_lumped_lanes, squeeze_coefficient
@@ -22,29 +23,25 @@ module rv_lumped
       logical :: both_ways = .false.  !! the film acts while opening too
       real(wp) :: inlet = 0.0_wp      !! amplitude of the inlet factor [Pa] or [-]
       real(wp) :: outlet = 0.0_wp     !! amplitude of the outlet factor [Pa] or [-]
-   contains
-      procedure :: equilibrium
    end type lumped_valve
 
    !> Cases side by side; all arrays are (width).
-   type :: lumped_lanes
-      integer :: width = 0
-      real(wp), allocatable :: inlet(:), outlet(:)   !! amplitudes [Pa] or [-]
-      real(wp), allocatable :: gap(:)                !! g0 [m]; for a lane without film a length no reed comes near
-      real(wp), allocatable :: squeeze(:)            !! C [N s m2]
+   type, extends(valve_lanes) :: lumped_lanes
+      real(wp), allocatable, private :: squeeze(:)        !! C [N s m2]
       real(wp), allocatable, private :: inverse_mass(:)   !! [kg-1]
       real(wp), allocatable, private :: damping(:)        !! [N s m-1]
       real(wp), allocatable, private :: stiffness(:)      !! [N m-1]
       real(wp), allocatable, private :: area(:)           !! [m2]
       real(wp), allocatable, private :: fastest(:)        !! velocity above which the film does not act [m s-1]
    contains
-      procedure :: film_force
       procedure :: acceleration
-      procedure :: jacobian
+      procedure :: linearise
+      procedure :: film_force
+      procedure :: equilibrium
+      procedure :: scales
+      procedure :: trace_values
       procedure :: silence
    end type lumped_lanes
-
-   real(wp), parameter :: no_film_gap = 1.0e3_wp  !! [m]
 
 contains
 
@@ -58,24 +55,20 @@ contains
       c = k_s*viscosity*length*width**3
    end function squeeze_coefficient
 
-   !> Static tip displacement under given factors, u = (p_in - p_out) A/k [m].
-   elemental real(wp) function equilibrium(self, inlet, outlet) result(u)
-      class(lumped_valve), intent(in) :: self
-      real(wp), intent(in) :: inlet, outlet   !! factors of the pressure history
-
-      u = (self%inlet*inlet - self%outlet*outlet)*self%area/self%stiffness
-   end function equilibrium
-
    !> Put cases side by side.
    pure subroutine new_lumped_lanes(self, valve)
       type(lumped_lanes), intent(out) :: self
       type(lumped_valve), intent(in) :: valve(:)
 
       self%width = size(valve)
+      self%traces = 5
       self%inlet = valve%inlet
       self%outlet = valve%outlet
+      self%has_film = valve%squeeze > 0.0_wp
+      self%gap = merge(valve%gap, no_film_gap, self%has_film)
+      self%tip = [1.0_wp]
+      allocate(self%lowest_pressure(size(valve)), source=0.0_wp)
       self%squeeze = valve%squeeze
-      self%gap = merge(valve%gap, no_film_gap, valve%squeeze > 0.0_wp)
       self%inverse_mass = 1.0_wp/valve%mass
       self%damping = valve%damping
       self%stiffness = valve%stiffness
@@ -83,62 +76,127 @@ contains
       self%fastest = merge(huge(1.0_wp), 0.0_wp, valve%both_ways)
    end subroutine new_lumped_lanes
 
-   !> Force of the film on the reed, -F_s of Eq. (26) [N]: positive pushes the reed open.
-   pure subroutine film_force(self, u, v, force)
-      class(lumped_lanes), intent(in) :: self
-      real(wp), intent(in) :: u(self%width)       !! tip displacement [m], > -gap
-      real(wp), intent(in) :: v(self%width)       !! tip velocity [m s-1]
-      real(wp), intent(out) :: force(self%width)  !! [N]
-
-      force = -self%squeeze*min(v, self%fastest)/(u + self%gap)**3
-   end subroutine film_force
-
    !> Right-hand side v' [m s-2].
-   pure subroutine acceleration(self, inlet, outlet, u, v, a)
-      class(lumped_lanes), intent(in) :: self
-      real(wp), intent(in) :: inlet, outlet      !! factors of the pressure history
-      real(wp), intent(in) :: u(self%width)      !! [m], > -gap
-      real(wp), intent(in) :: v(self%width)      !! [m s-1]
-      real(wp), intent(out) :: a(self%width)     !! [m s-2]
+   subroutine acceleration(self, inlet, outlet, q, v, a, closed)
+      class(lumped_lanes), intent(inout) :: self
+      real(wp), intent(in) :: inlet, outlet                !! factors of the pressure history
+      real(wp), intent(in) :: q(self%width, self%dofs)     !! tip displacement u [m]
+      real(wp), intent(in) :: v(self%width, self%dofs)     !! tip velocity [m s-1]
+      real(wp), intent(out) :: a(self%width, self%dofs)    !! [m s-2]
+      integer, intent(out) :: closed
       integer :: i
 
       do i = 1, self%width
-         a(i) = ((self%inlet(i)*inlet - self%outlet(i)*outlet)*self%area(i) &
-            & - self%stiffness(i)*u(i) - self%damping(i)*v(i) &
-            & - self%squeeze(i)*min(v(i), self%fastest(i))/(u(i) + self%gap(i))**3)*self%inverse_mass(i)
+         a(i, 1) = ((self%inlet(i)*inlet - self%outlet(i)*outlet)*self%area(i) &
+            & - self%stiffness(i)*q(i, 1) - self%damping(i)*v(i, 1) &
+            & - self%squeeze(i)*min(v(i, 1), self%fastest(i))/(q(i, 1) + self%gap(i))**3)*self%inverse_mass(i)
       end do
+      closed = first_closed(self, q(:, 1))
    end subroutine acceleration
 
-   !> Derivatives of the right-hand side. At the switch v = 0 the closing side's slope is taken.
-   pure subroutine jacobian(self, u, v, a_u, a_v)
-      class(lumped_lanes), intent(in) :: self
-      real(wp), intent(in) :: u(self%width)        !! [m], > -gap
-      real(wp), intent(in) :: v(self%width)        !! [m s-1]
-      real(wp), intent(out) :: a_u(self%width)     !! da/du [s-2]
-      real(wp), intent(out) :: a_v(self%width)     !! da/dv [s-1]
-      real(wp) :: film
+   !> Right-hand side and its derivatives. At the switch v = 0 the closing side's slope is taken.
+   subroutine linearise(self, inlet, outlet, q, v, a, a_q, a_v, closed)
+      class(lumped_lanes), intent(inout) :: self
+      real(wp), intent(in) :: inlet, outlet
+      real(wp), intent(in) :: q(self%width, self%dofs)
+      real(wp), intent(in) :: v(self%width, self%dofs)
+      real(wp), intent(out) :: a(self%width, self%dofs)
+      real(wp), intent(out) :: a_q(self%width, self%dofs, self%dofs)   !! da/du [s-2]
+      real(wp), intent(out) :: a_v(self%width, self%dofs, self%dofs)   !! da/dv [s-1]
+      integer, intent(out) :: closed
+      real(wp) :: h, film
       integer :: i
 
       do i = 1, self%width
-         film = 0.0_wp
-         if (v(i) <= self%fastest(i)) film = self%squeeze(i)/(u(i) + self%gap(i))**3
-         a_u(i) = (3.0_wp*film*v(i)/(u(i) + self%gap(i)) - self%stiffness(i))*self%inverse_mass(i)
-         a_v(i) = -(film + self%damping(i))*self%inverse_mass(i)
+         h = q(i, 1) + self%gap(i)
+         film = self%squeeze(i)/(h*h*h)
+         film = merge(film, 0.0_wp, v(i, 1) <= self%fastest(i))
+         a(i, 1) = ((self%inlet(i)*inlet - self%outlet(i)*outlet)*self%area(i) &
+            & - self%stiffness(i)*q(i, 1) - (self%damping(i) + film)*v(i, 1))*self%inverse_mass(i)
+         a_q(i, 1, 1) = (3.0_wp*film*v(i, 1)/h - self%stiffness(i))*self%inverse_mass(i)
+         a_v(i, 1, 1) = -(film + self%damping(i))*self%inverse_mass(i)
       end do
-   end subroutine jacobian
+      closed = first_closed(self, q(:, 1))
+   end subroutine linearise
 
-   !> Take lane i out: no force, so that a lane at u = v = 0 stays there.
-   pure subroutine silence(self, i)
+   !> -F_s of Eq. (26) [N] and its rate.
+   subroutine film_force(self, lane, inlet, outlet, q, v, a, force, rate)
       class(lumped_lanes), intent(inout) :: self
-      integer, intent(in) :: i
+      integer, intent(in) :: lane
+      real(wp), intent(in) :: inlet, outlet
+      real(wp), intent(in) :: q(self%dofs), v(self%dofs), a(self%dofs)
+      real(wp), intent(out) :: force, rate
+      real(wp) :: h, film
 
-      self%inlet(i) = 0.0_wp
-      self%outlet(i) = 0.0_wp
-      self%squeeze(i) = 0.0_wp
-      self%gap(i) = no_film_gap
-      self%stiffness(i) = 0.0_wp
-      self%damping(i) = 0.0_wp
-      self%inverse_mass(i) = 0.0_wp
+      associate (unused => [inlet, outlet])
+      end associate
+      h = q(1) + self%gap(lane)
+      film = 0.0_wp
+      if (v(1) <= self%fastest(lane)) film = self%squeeze(lane)/h**3
+      force = -film*v(1)
+      rate = -film*(a(1) - 3.0_wp*v(1)**2/h)
+   end subroutine film_force
+
+   !> u = (p_in - p_out) A/k [m].
+   subroutine equilibrium(self, inlet, outlet, q, found)
+      class(lumped_lanes), intent(inout) :: self
+      real(wp), intent(in) :: inlet, outlet
+      real(wp), intent(out) :: q(self%width, self%dofs)
+      logical, intent(out) :: found(self%width)
+
+      q(:, 1) = (self%inlet*inlet - self%outlet*outlet)*self%area/self%stiffness
+      found = q(:, 1) + self%gap > 0.0_wp
+   end subroutine equilibrium
+
+   !> The static displacement, for a squeeze film at most ten gaps (its force follows (u + g0)^-3),
+   !> and that length times the natural frequency.
+   subroutine scales(self, span, q_scale, v_scale)
+      class(lumped_lanes), intent(in) :: self
+      real(wp), intent(in) :: span(self%width)
+      real(wp), intent(out) :: q_scale(self%width, self%dofs)
+      real(wp), intent(out) :: v_scale(self%width, self%dofs)
+
+      q_scale(:, 1) = min(span*self%area/self%stiffness, 10.0_wp*self%gap)
+      where (.not. q_scale(:, 1) > 0.0_wp) q_scale(:, 1) = 1.0e-3_wp*min(self%gap, 1.0e-3_wp)
+      v_scale(:, 1) = q_scale(:, 1)*sqrt(self%stiffness*self%inverse_mass)
+   end subroutine scales
+
+   !> Displacement [m], velocity [m s-1], inlet and outlet pressure [Pa], film force [N].
+   subroutine trace_values(self, lane, inlet, outlet, q, v, value)
+      class(lumped_lanes), intent(inout) :: self
+      integer, intent(in) :: lane
+      real(wp), intent(in) :: inlet, outlet
+      real(wp), intent(in) :: q(self%dofs), v(self%dofs)
+      real(wp), intent(out) :: value(self%traces)
+      real(wp) :: force, rate
+
+      call self%film_force(lane, inlet, outlet, q, v, 0.0_wp*v, force, rate)
+      value = [q(1), v(1), self%inlet(lane)*inlet, self%outlet(lane)*outlet, force]
+   end subroutine trace_values
+
+   subroutine silence(self, lane)
+      class(lumped_lanes), intent(inout) :: self
+      integer, intent(in) :: lane
+
+      self%inlet(lane) = 0.0_wp
+      self%outlet(lane) = 0.0_wp
+      self%squeeze(lane) = 0.0_wp
+      self%has_film(lane) = .false.
+      self%gap(lane) = no_film_gap
+      self%stiffness(lane) = 0.0_wp
+      self%damping(lane) = 0.0_wp
+      self%inverse_mass(lane) = 0.0_wp
    end subroutine silence
+
+   pure integer function first_closed(self, u) result(lane)
+      type(lumped_lanes), intent(in) :: self
+      real(wp), intent(in) :: u(:)
+
+      lane = 0
+      if (all(u + self%gap > 0.0_wp)) return
+      do lane = 1, self%width
+         if (.not. u(lane) + self%gap(lane) > 0.0_wp) return
+      end do
+   end function first_closed
 
 end module rv_lumped

@@ -3,12 +3,14 @@ module paper_valve
    use rv_kinds, only : wp
    use rv_error, only : error_type
    use rv_hydrodynamic_load, only : fluid_type, hydrodynamic_load, new_hydrodynamic_load, load_published
-   use rv_lumped, only : lumped_valve, squeeze_coefficient
-   use rv_pressure, only : square_wave, new_square_wave
+   use rv_lanes, only : lane_outcome, lane_settings, run_lanes
+   use rv_lumped, only : lumped_lanes, lumped_valve, new_lumped_lanes, squeeze_coefficient
+   use rv_pressure, only : pressure_history, square_wave, new_square_wave
    use rv_reed, only : reed_type, new_reed
+   use rv_valve_lanes, only : valve_lanes
    implicit none
    private
-   public :: valve_at, wave_40ms
+   public :: valve_at, wave_40ms, run_lumped
 
    real(wp), parameter, public :: kpa = 1.0e3_wp, mm = 1.0e-3_wp, ms = 1.0e-3_wp
 
@@ -40,5 +42,20 @@ contains
       call new_square_wave(wave, 40.0_wp*ms, 1.0_wp*ms, error)
       if (allocated(error)) error stop "the paper's wave is refused"
    end function wave_40ms
+
+   !> Run cases of the lumped models as one group of lanes.
+   subroutine run_lumped(valve, history, settings, trace_time, outcome)
+      type(lumped_valve), intent(in) :: valve(:)
+      class(pressure_history), intent(in) :: history
+      type(lane_settings), intent(in) :: settings
+      real(wp), intent(in) :: trace_time(:)
+      type(lane_outcome), intent(out) :: outcome
+      type(lumped_lanes) :: lumped
+      class(valve_lanes), allocatable :: lanes
+
+      call new_lumped_lanes(lumped, valve)
+      allocate(lanes, source=lumped)
+      call run_lanes(lanes, history, settings, trace_time, outcome)
+   end subroutine run_lumped
 
 end module paper_valve

@@ -2,11 +2,11 @@
 program test_lanes
    use, intrinsic :: ieee_arithmetic, only : ieee_is_nan, ieee_value, ieee_quiet_nan
    use rv_kinds, only : wp
-   use rv_lanes, only : lane_outcome, lane_settings, run_lanes
+   use rv_lanes, only : lane_outcome, lane_settings
    use rv_lumped, only : lumped_valve
    use rv_status, only : status_ok, status_name, status_too_many_steps
    use check, only : suite_type
-   use paper_valve, only : valve_at, wave_40ms, kpa, mm, ms
+   use paper_valve, only : run_lumped, valve_at, wave_40ms, kpa, mm, ms
    implicit none
    type(suite_type) :: suite
    integer, parameter :: w = 16
@@ -44,14 +44,14 @@ contains
       settings%rtol = rtol
       tight = settings
       tight%rtol = 1.0e-11_wp
-      call run_lanes(valve, wave_40ms(), settings, no_times, together)
-      call run_lanes(valve(w:1:-1), wave_40ms(), settings, no_times, backwards)
+      call run_lumped(valve, wave_40ms(), settings, no_times, together)
+      call run_lumped(valve(w:1:-1), wave_40ms(), settings, no_times, backwards)
       worst = 0.0_wp
       worst_alone = 0.0_wp
       do i = 1, w
-         call run_lanes(valve(i:i), wave_40ms(), tight, no_times, alone)
+         call run_lumped(valve(i:i), wave_40ms(), tight, no_times, alone)
          worst = max(worst, distance(together%measure(:, i), alone%measure(:, 1)))
-         call run_lanes(valve(i:i), wave_40ms(), settings, no_times, alone)
+         call run_lumped(valve(i:i), wave_40ms(), settings, no_times, alone)
          worst_alone = max(worst_alone, distance(together%measure(:, i), alone%measure(:, 1)))
       end do
       call suite%true("all lanes end well", all(together%status == status_ok))
@@ -85,10 +85,10 @@ contains
       settings%t_end = 40.0_wp*ms
       settings%rtol = rtol
       valve = mixed_cases()
-      call run_lanes(valve, wave_40ms(), settings, no_times, without)
+      call run_lumped(valve, wave_40ms(), settings, no_times, without)
       valve(5)%damping = ieee_value(1.0_wp, ieee_quiet_nan)
       valve(9)%damping = -30.0_wp   ! grows without bound: fails late, by overflow or by step size
-      call run_lanes(valve, wave_40ms(), settings, no_times, with)
+      call run_lumped(valve, wave_40ms(), settings, no_times, with)
       others = .true.
       others([5, 9]) = .false.
       call suite%true("the lane with a NaN fails ("//status_name(with%status(5))//", "//with%message(5)%s//")", &
@@ -110,7 +110,7 @@ contains
 
       settings%t_end = 40.0_wp*ms
       settings%max_steps = 20
-      call run_lanes([valve_at(20.0_wp*kpa, 0.05_wp*mm, 0.0075_wp)], wave_40ms(), settings, no_times, outcome)
+      call run_lumped([valve_at(20.0_wp*kpa, 0.05_wp*mm, 0.0075_wp)], wave_40ms(), settings, no_times, outcome)
       call suite%equal("status at the step limit", outcome%status(1), status_too_many_steps)
       call suite%true("message: "//outcome%message(1)%s, index(outcome%message(1)%s, "after 20 steps") == 1)
    end subroutine step_limit

@@ -1,12 +1,12 @@
 !> Responses against closed forms: the linear oscillator under ramps, the overdamped film, the energy balance.
 program test_response
    use rv_kinds, only : wp
-   use rv_lanes, only : lane_outcome, lane_settings, run_lanes
+   use rv_lanes, only : lane_outcome, lane_settings
    use rv_lumped, only : lumped_valve
    use rv_pressure, only : pressure_trace, new_pressure_trace, square_wave
    use rv_error, only : error_type
    use check, only : suite_type
-   use paper_valve, only : valve_at, wave_40ms, kpa, mm, ms
+   use paper_valve, only : run_lumped, valve_at, wave_40ms, kpa, mm, ms
    implicit none
    type(suite_type) :: suite
 
@@ -30,7 +30,7 @@ contains
       settings%t_end = 40.0_wp*ms
       settings%rtol = 1.0e-8_wp
       time = [(0.1_wp*ms*real(i, wp), i=0, 400)]
-      call run_lanes(valve, wave_40ms(), settings, time, outcome)
+      call run_lumped(valve, wave_40ms(), settings, time, outcome)
       call exact_response(valve(1), time, exact)
       steady = 20.0_wp*kpa*valve(1)%area/valve(1)%stiffness
       call suite%close("steady displacement of the paper's valve at 20 kPa [mm]", outcome%measure(1, 1)/mm, &
@@ -130,7 +130,7 @@ contains
       settings%t_end = t_end
       settings%rtol = 1.0e-8_wp
       time = [(t_end*0.2_wp*real(i, wp), i=1, 5)]
-      call run_lanes(valve, history, settings, time, outcome)
+      call run_lumped(valve, history, settings, time, outcome)
       call suite%equal("the film never closes in finite time: status", outcome%status(1), 0)
       do i = 1, 5
          film = gap/sqrt(1.0_wp + 2.0_wp*load*valve(1)%area*time(i)*gap**2/valve(1)%squeeze)
@@ -155,7 +155,7 @@ contains
       dt = settings%t_end/real(n, wp)
       time = [(dt*real(i, wp), i=0, n)]
       time(n) = settings%t_end
-      call run_lanes(valve, wave_40ms(), settings, time, outcome)
+      call run_lumped(valve, wave_40ms(), settings, time, outcome)
       do lane = 1, 2
          associate (u => outcome%trace(:, 1, lane), v => outcome%trace(:, 2, lane), p => outcome%trace(:, 3, lane), &
             & force => outcome%trace(:, 5, lane))
@@ -184,7 +184,7 @@ contains
       valve = valve_at(1.0_wp, 0.05_wp*mm, 0.0075_wp)
       settings%t_end = 5.0_wp*ms
       settings%from_equilibrium = .true.
-      call run_lanes(valve, history, settings, [2.0_wp*ms], outcome)
+      call run_lumped(valve, history, settings, [2.0_wp*ms], outcome)
       call suite%close("displacement before the event [mm]", outcome%trace(1, 1, 1)/mm, outcome%measure(1, 1)/mm, &
          & 1.0e-3_wp*settings%rtol, 0.0_wp)
       call suite%close("no overshoot [mm]", outcome%measure(4, 1)/mm, 0.0_wp, 0.0_wp, 1.0e-3_wp*settings%rtol)

@@ -10,6 +10,7 @@ program test_lumped
    real(wp), parameter :: some_ulp = 16.0_wp*epsilon(1.0_wp)
    real(wp), parameter :: inlet = 0.75_wp, outlet = 1.0_wp   !! factors of the pressure history
    type(lumped_valve) :: valve(n_states)   !! one third each: closing only, both ways, no film
+   logical :: suite_agrees = .true.        !! acceleration and linearise gave the same accelerations so far
    real(wp) :: u(n_states), v(n_states)    !! half of them near the seat, half of them closing
 
    call spread_states()
@@ -23,6 +24,8 @@ program test_lumped
    call test_traditional()
    call test_lanes_apart()
    call test_silence()
+   call test_force_rate()
+   call suite%true("both ways to the acceleration agree", suite_agrees)
    call suite%finish()
 
 contains
@@ -78,13 +81,13 @@ contains
 
       one = paper_valve()
       one%stiffness = 2691.932270916335_wp
-      call suite%close("steady displacement at 20 kPa [m]", one%equilibrium(1.0_wp, 1.0_wp), 0.093316e-3_wp, &
+      call suite%close("steady displacement at 20 kPa [m]", equilibrium(one, 1.0_wp, 1.0_wp), 0.093316e-3_wp, &
          & rtol=0.0_wp, atol=0.5e-9_wp)
       one%outlet = 5.0e3_wp
-      call suite%close("both pressures count [m]", one%equilibrium(0.5_wp, 0.25_wp), &
+      call suite%close("both pressures count [m]", equilibrium(one, 0.5_wp, 0.25_wp), &
          & (10.0e3_wp - 1.25e3_wp)*12.56e-6_wp/one%stiffness, rtol=some_ulp, atol=0.0_wp)
       call new_lumped_lanes(lanes, [one])
-      call lanes%acceleration(0.5_wp, 0.25_wp, [one%equilibrium(0.5_wp, 0.25_wp)], [0.0_wp], a)
+      call acceleration(lanes, 0.5_wp, 0.25_wp, [equilibrium(one, 0.5_wp, 0.25_wp)], [0.0_wp], a)
       call suite%close("no acceleration at equilibrium [m/s2]", a(1), 0.0_wp, rtol=0.0_wp, &
          & atol=some_ulp*10.0e3_wp*one%area/one%mass)
    end subroutine test_equilibrium
@@ -96,7 +99,7 @@ contains
       integer :: n
 
       call new_lumped_lanes(lanes, valve)
-      call lanes%acceleration(inlet, outlet, u, v, a)
+      call acceleration(lanes, inlet, outlet, u, v, a)
       do n = 1, n_states
          call suite%close("acceleration, "//state(n)//" [m/s2]", a(n), &
             & (pressure_force(n) - valve(n)%stiffness*u(n) - valve(n)%damping*v(n) - film(n)*v(n))/valve(n)%mass, &
@@ -113,17 +116,17 @@ contains
       integer :: n
 
       call new_lumped_lanes(lanes, valve)
-      call lanes%jacobian(u, v, a_u, a_v)
+      call jacobian(lanes, u, v, a_u, a_v)
       step = epsilon(1.0_wp)**(1.0_wp/3.0_wp)*(u + valve%gap)
-      call lanes%acceleration(inlet, outlet, u + step, v, ahead)
-      call lanes%acceleration(inlet, outlet, u - step, v, behind)
+      call acceleration(lanes, inlet, outlet, u + step, v, ahead)
+      call acceleration(lanes, inlet, outlet, u - step, v, behind)
       do n = 1, n_states
          call suite%close("da/du, "//state(n)//" [s-2]", a_u(n), (ahead(n) - behind(n))/(2.0_wp*step(n)), &
             & rtol=sqrt(epsilon(1.0_wp)), atol=4.0_wp*epsilon(1.0_wp)*size_of_terms(n)/step(n))
       end do
       step = epsilon(1.0_wp)**(1.0_wp/3.0_wp)*abs(v)
-      call lanes%acceleration(inlet, outlet, u, v + step, ahead)
-      call lanes%acceleration(inlet, outlet, u, v - step, behind)
+      call acceleration(lanes, inlet, outlet, u, v + step, ahead)
+      call acceleration(lanes, inlet, outlet, u, v - step, behind)
       do n = 1, n_states
          call suite%close("da/dv, "//state(n)//" [s-1]", a_v(n), (ahead(n) - behind(n))/(2.0_wp*step(n)), &
             & rtol=sqrt(epsilon(1.0_wp)), atol=4.0_wp*epsilon(1.0_wp)*size_of_terms(n)/step(n))
@@ -137,7 +140,7 @@ contains
       integer :: n
 
       call new_lumped_lanes(lanes, valve)
-      call lanes%film_force(u, v, force)
+      call film_force(lanes, u, v, force)
       do n = 1, n_states
          call suite%close("film force, "//state(n)//" [N]", force(n), -film(n)*v(n), rtol=some_ulp, atol=0.0_wp)
       end do
@@ -148,8 +151,8 @@ contains
       call suite%true("a film that acts while closing lets the reed open", &
          & all(abs(force) <= 0.0_wp .or. v < 0.0_wp .or. valve%both_ways))
       call new_lumped_lanes(lanes, [paper_valve()])
-      call lanes%film_force([0.0_wp], [-0.01_wp], thick)
-      call lanes%film_force([-2.5e-5_wp], [-0.01_wp], thin)
+      call film_force(lanes, [0.0_wp], [-0.01_wp], thick)
+      call film_force(lanes, [-2.5e-5_wp], [-0.01_wp], thin)
       call suite%close("half the film, eight times the force [N]", thin(1), 8.0_wp*thick(1), rtol=some_ulp, atol=0.0_wp)
    end subroutine test_film
 
@@ -160,8 +163,8 @@ contains
       integer :: n
 
       call new_lumped_lanes(lanes, valve)
-      call lanes%acceleration(inlet, outlet, u, v, a)
-      call lanes%film_force(u, v, force)
+      call acceleration(lanes, inlet, outlet, u, v, a)
+      call film_force(lanes, u, v, force)
       do n = 1, n_states
          call suite%close("power, "//state(n)//" [W]", (valve(n)%mass*a(n) + valve(n)%stiffness*u(n))*v(n), &
             & (pressure_force(n) - valve(n)%damping*v(n) + force(n))*v(n), &
@@ -181,16 +184,16 @@ contains
 
       zero = 0.0_wp
       call new_lumped_lanes(lanes, valve)
-      call lanes%acceleration(inlet, outlet, u, zero, at)
-      call lanes%acceleration(inlet, outlet, u, zero - tiny(1.0_wp), before)
-      call lanes%acceleration(inlet, outlet, u, zero + tiny(1.0_wp), after)
-      call lanes%film_force(u, zero, force)
+      call acceleration(lanes, inlet, outlet, u, zero, at)
+      call acceleration(lanes, inlet, outlet, u, zero - tiny(1.0_wp), before)
+      call acceleration(lanes, inlet, outlet, u, zero + tiny(1.0_wp), after)
+      call film_force(lanes, u, zero, force)
       call suite%true("no film force at v = 0", all(abs(force) <= 0.0_wp))
       call suite%true("acceleration continuous at v = 0", &
          & all(abs(before - at) <= some_ulp*abs(at)) .and. all(abs(after - at) <= some_ulp*abs(at)))
-      call lanes%jacobian(u, zero, unused, slope_at)
-      call lanes%jacobian(u, zero - tiny(1.0_wp), unused, slope_before)
-      call lanes%jacobian(u, zero + tiny(1.0_wp), unused, slope_after)
+      call jacobian(lanes, u, zero, unused, slope_at)
+      call jacobian(lanes, u, zero - tiny(1.0_wp), unused, slope_before)
+      call jacobian(lanes, u, zero + tiny(1.0_wp), unused, slope_after)
       do n = 1, n_states
          jump = valve(n)%squeeze/(u(n) + valve(n)%gap)**3/valve(n)%mass
          if (valve(n)%both_ways) jump = 0.0_wp
@@ -210,18 +213,18 @@ contains
       without = valve
       without%squeeze = 0.0_wp
       call new_lumped_lanes(plain, without)
-      call plain%acceleration(inlet, outlet, u, v, a_plain)
-      call plain%jacobian(u, v, a_u, a_v)
+      call acceleration(plain, inlet, outlet, u, v, a_plain)
+      call jacobian(plain, u, v, a_u, a_v)
       without%squeeze = 1.0e-40_wp
       call new_lumped_lanes(weak, without)
-      call weak%acceleration(inlet, outlet, u, v, a_weak)
+      call acceleration(weak, inlet, outlet, u, v, a_weak)
       call suite%true("a vanishing film is none", all(abs(a_weak - a_plain) <= some_ulp*abs(a_plain)))
       call suite%true("traditional da/du = -k/m", &
          & all(abs(a_u + valve%stiffness/valve%mass) <= some_ulp*valve%stiffness/valve%mass))
       call suite%true("traditional da/dv = -c/m", &
          & all(abs(a_v + valve%damping/valve%mass) <= some_ulp*valve%damping/valve%mass))
-      call plain%acceleration(inlet, outlet, -valve%gap, v, a_plain)
-      call plain%acceleration(inlet, outlet, -2.0_wp*valve%gap, v, a_weak)
+      call acceleration(plain, inlet, outlet, -valve%gap, v, a_plain)
+      call acceleration(plain, inlet, outlet, -2.0_wp*valve%gap, v, a_weak)
       call suite%true("traditional: through the seat with the spring alone", &
          & all(abs(a_weak - a_plain - valve%stiffness*valve%gap/valve%mass) <= some_ulp*(abs(a_weak) + abs(a_plain))))
    end subroutine test_traditional
@@ -236,22 +239,22 @@ contains
 
       call new_lumped_lanes(all_lanes, valve)
       call suite%equal("lanes", all_lanes%width, n_states)
-      call all_lanes%acceleration(inlet, outlet, u, v, a)
-      call all_lanes%jacobian(u, v, a_u, a_v)
-      call all_lanes%film_force(u, v, force)
+      call acceleration(all_lanes, inlet, outlet, u, v, a)
+      call jacobian(all_lanes, u, v, a_u, a_v)
+      call film_force(all_lanes, u, v, force)
       call new_lumped_lanes(turned, cshift(valve, 7))
-      call turned%acceleration(inlet, outlet, cshift(u, 7), cshift(v, 7), other)
-      call turned%jacobian(cshift(u, 7), cshift(v, 7), other_u, other_v)
-      call turned%film_force(cshift(u, 7), cshift(v, 7), other_force)
+      call acceleration(turned, inlet, outlet, cshift(u, 7), cshift(v, 7), other)
+      call jacobian(turned, cshift(u, 7), cshift(v, 7), other_u, other_v)
+      call film_force(turned, cshift(u, 7), cshift(v, 7), other_force)
       call suite%true("lanes in another order, same bits", same_bits(cshift(a, 7), other) .and. &
          & same_bits(cshift(a_u, 7), other_u) .and. same_bits(cshift(a_v, 7), other_v) .and. &
          & same_bits(cshift(force, 7), other_force))
       same = .true.
       do n = 1, n_states
          call new_lumped_lanes(alone, valve(n:n))
-         call alone%acceleration(inlet, outlet, u(n:n), v(n:n), one)
-         call alone%jacobian(u(n:n), v(n:n), one_u, one_v)
-         call alone%film_force(u(n:n), v(n:n), one_force)
+         call acceleration(alone, inlet, outlet, u(n:n), v(n:n), one)
+         call jacobian(alone, u(n:n), v(n:n), one_u, one_v)
+         call film_force(alone, u(n:n), v(n:n), one_force)
          same = same .and. same_bits([one, one_u, one_v, one_force], [a(n), a_u(n), a_v(n), force(n)])
       end do
       call suite%true("each lane alone, same bits", same)
@@ -264,17 +267,17 @@ contains
       logical :: others(n_states)
 
       call new_lumped_lanes(lanes, valve)
-      call lanes%acceleration(inlet, outlet, u, v, a)
-      call lanes%jacobian(u, v, a_u, a_v)
-      call lanes%film_force(u, v, force)
+      call acceleration(lanes, inlet, outlet, u, v, a)
+      call jacobian(lanes, u, v, a_u, a_v)
+      call film_force(lanes, u, v, force)
       call lanes%silence(4)
       others = .true.
       others(4) = .false.
-      call lanes%acceleration(inlet, outlet, merge(u, 0.0_wp, others), merge(v, 0.0_wp, others), quiet)
+      call acceleration(lanes, inlet, outlet, merge(u, 0.0_wp, others), merge(v, 0.0_wp, others), quiet)
       call suite%close("silent lane at rest [m/s2]", quiet(4), 0.0_wp, rtol=0.0_wp, atol=0.0_wp)
-      call lanes%acceleration(inlet, outlet, u, v, quiet)
-      call lanes%jacobian(u, v, quiet_u, quiet_v)
-      call lanes%film_force(u, v, quiet_force)
+      call acceleration(lanes, inlet, outlet, u, v, quiet)
+      call jacobian(lanes, u, v, quiet_u, quiet_v)
+      call film_force(lanes, u, v, quiet_force)
       call suite%true("the lane was not silent before", abs(a(4)) > 0.0_wp .and. abs(force(4)) > 0.0_wp)
       call suite%close("silent lane: acceleration [m/s2]", quiet(4), 0.0_wp, rtol=0.0_wp, atol=0.0_wp)
       call suite%close("silent lane: da/du [s-2]", quiet_u(4), 0.0_wp, rtol=0.0_wp, atol=0.0_wp)
@@ -285,6 +288,83 @@ contains
          & same_bits(pack(a_v, others), pack(quiet_v, others)) .and. &
          & same_bits(pack(force, others), pack(quiet_force, others)))
    end subroutine test_silence
+
+   !> The force's rate against differences along a path u(t), v(t), a(t).
+   subroutine test_force_rate()
+      type(lumped_lanes) :: lanes
+      real(wp) :: force, rate, ahead, behind, unused, dt, a
+      integer :: n
+
+      call new_lumped_lanes(lanes, valve)
+      do n = 1, n_states
+         a = 10.0_wp*v(n)/1.0e-3_wp
+         dt = 1.0e-6_wp*min(1.0e-3_wp, (u(n) + valve(n)%gap)/abs(v(n)))
+         call lanes%film_force(n, inlet, outlet, u(n:n), v(n:n), [a], force, rate)
+         call lanes%film_force(n, inlet, outlet, [u(n) + v(n)*dt], [v(n) + a*dt], [a], ahead, unused)
+         call lanes%film_force(n, inlet, outlet, [u(n) - v(n)*dt], [v(n) - a*dt], [a], behind, unused)
+         call suite%close("rate of the film force, "//state(n)//" [N/s]", rate, (ahead - behind)/(2.0_wp*dt), &
+            & rtol=1.0e-6_wp, atol=1.0e-9_wp*abs(force)/dt)
+      end do
+   end subroutine test_force_rate
+
+   ! The lanes' interface with one degree of freedom, seen as plain arrays.
+
+   subroutine acceleration(lanes, inlet, outlet, u, v, a)
+      type(lumped_lanes), intent(inout) :: lanes
+      real(wp), intent(in) :: inlet, outlet, u(:), v(:)
+      real(wp), intent(out) :: a(:)
+      real(wp), dimension(size(u), 1) :: a_out, a_again
+      real(wp), dimension(size(u), 1, 1) :: a_u, a_v
+      integer :: closed
+
+      call lanes%acceleration(inlet, outlet, as_state(u), as_state(v), a_out, closed)
+      call lanes%linearise(inlet, outlet, as_state(u), as_state(v), a_again, a_u, a_v, closed)
+      suite_agrees = suite_agrees .and. all(abs(a_out - a_again) <= 1.0e-9_wp*(abs(a_out) + 1.0_wp) .or. closed > 0)
+      a = a_out(:, 1)
+   end subroutine acceleration
+
+   subroutine jacobian(lanes, u, v, a_u, a_v)
+      type(lumped_lanes), intent(inout) :: lanes
+      real(wp), intent(in) :: u(:), v(:)
+      real(wp), intent(out) :: a_u(:), a_v(:)
+      real(wp) :: a(size(u), 1), slope_u(size(u), 1, 1), slope_v(size(u), 1, 1)
+      integer :: closed
+
+      call lanes%linearise(inlet, outlet, as_state(u), as_state(v), a, slope_u, slope_v, closed)
+      a_u = slope_u(:, 1, 1)
+      a_v = slope_v(:, 1, 1)
+   end subroutine jacobian
+
+   subroutine film_force(lanes, u, v, force)
+      type(lumped_lanes), intent(inout) :: lanes
+      real(wp), intent(in) :: u(:), v(:)
+      real(wp), intent(out) :: force(:)
+      real(wp) :: rate
+      integer :: n
+
+      do n = 1, size(u)
+         call lanes%film_force(n, inlet, outlet, u(n:n), v(n:n), [0.0_wp], force(n), rate)
+      end do
+   end subroutine film_force
+
+   real(wp) function equilibrium(one, inlet, outlet)
+      type(lumped_valve), intent(in) :: one
+      real(wp), intent(in) :: inlet, outlet
+      type(lumped_lanes) :: lanes
+      real(wp) :: q(1, 1)
+      logical :: found(1)
+
+      call new_lumped_lanes(lanes, [one])
+      call lanes%equilibrium(inlet, outlet, q, found)
+      equilibrium = q(1, 1)
+   end function equilibrium
+
+   pure function as_state(x) result(state)
+      real(wp), intent(in) :: x(:)
+      real(wp) :: state(size(x), 1)
+
+      state(:, 1) = x
+   end function as_state
 
    pure logical function same_bits(x, y)
       real(wp), intent(in) :: x(:), y(:)

@@ -1,0 +1,107 @@
+!> What the integrator sees of a group of cases, whatever their model.
+!>
+!> A case is a lane: `dofs` generalised displacements q with q'' = a(q, q', t). States are arrays
+!> (width, dofs), the lane running fastest. The tip displacement is u = sum of tip_k q_k.
+module rv_valve_lanes
+   use rv_kinds, only : wp
+   implicit none
+   private
+   public :: valve_lanes, no_film_gap
+
+   real(wp), parameter :: no_film_gap = 1.0e3_wp  !! gap of a lane without film: no reed comes near [m]
+
+   !> Cases of one model side by side.
+   type, abstract :: valve_lanes
+      integer :: width = 0                         !! cases
+      integer :: dofs = 1                          !! degrees of freedom of a case
+      integer :: traces = 0                        !! values in a trace sample
+      real(wp), allocatable :: inlet(:), outlet(:) !! amplitudes of the pressure history [Pa] or [-], (width)
+      real(wp), allocatable :: gap(:)              !! g0 [m], (width)
+      logical, allocatable :: has_film(:)          !! (width)
+      real(wp), allocatable :: tip(:)              !! tip displacement per unit of each q, (dofs)
+      real(wp), allocatable :: lowest_pressure(:)  !! lowest film pressure seen, relative to the outlet [Pa], (width)
+   contains
+      procedure(acceleration_of), deferred :: acceleration
+      procedure(linear_form_of), deferred :: linearise
+      procedure(film_force_of), deferred :: film_force
+      procedure(equilibrium_of), deferred :: equilibrium
+      procedure(scales_of), deferred :: scales
+      procedure(trace_of), deferred :: trace_values
+      procedure(silence_lane), deferred :: silence
+   end type valve_lanes
+
+   abstract interface
+      !> Accelerations. `closed` is the first lane whose film is closed, or 0.
+      subroutine acceleration_of(self, inlet, outlet, q, v, a, closed)
+         import :: valve_lanes, wp
+         class(valve_lanes), intent(inout) :: self
+         real(wp), intent(in) :: inlet, outlet                  !! factors of the pressure history
+         real(wp), intent(in) :: q(self%width, self%dofs)
+         real(wp), intent(in) :: v(self%width, self%dofs)
+         real(wp), intent(out) :: a(self%width, self%dofs)
+         integer, intent(out) :: closed
+      end subroutine acceleration_of
+
+      !> Accelerations and their derivatives with respect to q and v.
+      subroutine linear_form_of(self, inlet, outlet, q, v, a, a_q, a_v, closed)
+         import :: valve_lanes, wp
+         class(valve_lanes), intent(inout) :: self
+         real(wp), intent(in) :: inlet, outlet
+         real(wp), intent(in) :: q(self%width, self%dofs)
+         real(wp), intent(in) :: v(self%width, self%dofs)
+         real(wp), intent(out) :: a(self%width, self%dofs)
+         real(wp), intent(out) :: a_q(self%width, self%dofs, self%dofs)   !! da_i/dq_k at (:, i, k)
+         real(wp), intent(out) :: a_v(self%width, self%dofs, self%dofs)
+         integer, intent(out) :: closed
+      end subroutine linear_form_of
+
+      !> Force with which the film resists the motion of one lane, referred to the tip, and its rate of change.
+      !>
+      !> Positive against closing. Film models also keep the lowest film pressure they see.
+      subroutine film_force_of(self, lane, inlet, outlet, q, v, a, force, rate)
+         import :: valve_lanes, wp
+         class(valve_lanes), intent(inout) :: self
+         integer, intent(in) :: lane
+         real(wp), intent(in) :: inlet, outlet
+         real(wp), intent(in) :: q(self%dofs), v(self%dofs), a(self%dofs)
+         real(wp), intent(out) :: force   !! [N]
+         real(wp), intent(out) :: rate    !! [N s-1]
+      end subroutine film_force_of
+
+      !> Static displacements under given factors; not found where the pressure closes the film.
+      subroutine equilibrium_of(self, inlet, outlet, q, found)
+         import :: valve_lanes, wp
+         class(valve_lanes), intent(inout) :: self
+         real(wp), intent(in) :: inlet, outlet
+         real(wp), intent(out) :: q(self%width, self%dofs)
+         logical, intent(out) :: found(self%width)
+      end subroutine equilibrium_of
+
+      !> Sizes of displacement and velocity that the tolerance is relative to, for a largest pressure difference.
+      subroutine scales_of(self, span, q_scale, v_scale)
+         import :: valve_lanes, wp
+         class(valve_lanes), intent(in) :: self
+         real(wp), intent(in) :: span(self%width)   !! [Pa]
+         real(wp), intent(out) :: q_scale(self%width, self%dofs)
+         real(wp), intent(out) :: v_scale(self%width, self%dofs)
+      end subroutine scales_of
+
+      !> One trace sample of one lane.
+      subroutine trace_of(self, lane, inlet, outlet, q, v, value)
+         import :: valve_lanes, wp
+         class(valve_lanes), intent(inout) :: self
+         integer, intent(in) :: lane
+         real(wp), intent(in) :: inlet, outlet
+         real(wp), intent(in) :: q(self%dofs), v(self%dofs)
+         real(wp), intent(out) :: value(self%traces)
+      end subroutine trace_of
+
+      !> Take a lane out: no force, so that it stays at q = v = 0.
+      subroutine silence_lane(self, lane)
+         import :: valve_lanes
+         class(valve_lanes), intent(inout) :: self
+         integer, intent(in) :: lane
+      end subroutine silence_lane
+   end interface
+
+end module rv_valve_lanes
