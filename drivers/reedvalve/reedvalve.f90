@@ -6,11 +6,13 @@ program reedvalve
    use rv_cli_help, only : print_help, print_version
    use rv_cli_output, only : complain, end_program, exit_bad, exit_fine
    use rv_error, only : error_type
+   use rv_posix, only : keep_standard_files
    implicit none
    type(arguments_type) :: arguments
    type(error_type), allocatable :: error
    integer :: status
 
+   call keep_standard_files()
    call read_arguments(arguments, error)
    status = exit_fine
    if (allocated(error)) then

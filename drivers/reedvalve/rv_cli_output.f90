@@ -1,7 +1,7 @@
 !> What the program says, and how it ends. Results of a command go to standard output, all else to standard error.
 module rv_cli_output
-   use, intrinsic :: iso_c_binding, only : c_int
-   use, intrinsic :: iso_fortran_env, only : error_unit, output_unit
+   use, intrinsic :: iso_c_binding, only : c_int, c_loc, c_ptr, c_size_t
+   use, intrinsic :: iso_fortran_env, only : error_unit
    use rv_error, only : error_type, rv_bad_input, rv_io
    implicit none
    private
@@ -15,6 +15,12 @@ module rv_cli_output
    integer, parameter :: exit_internal = 4   !! a fault of this code
 
    interface
+      integer(c_size_t) function c_write(fd, data, size) bind(C, name="write")
+         import :: c_int, c_ptr, c_size_t
+         integer(c_int), value :: fd
+         type(c_ptr), value :: data
+         integer(c_size_t), value :: size
+      end function c_write
       subroutine c_exit(status) bind(C, name="exit")
          import :: c_int
          integer(c_int), value :: status
@@ -27,13 +33,21 @@ module rv_cli_output
 
 contains
 
-   !> Lines for standard output.
+   !> Lines for standard output, past Fortran's own unit, which does not tell when a disk is full.
    subroutine say(text)
       character(len=*), intent(in) :: text
-      integer :: flag
+      character(len=:), allocatable, target :: rest
+      integer(c_size_t) :: done
 
-      write(output_unit, '(a)', iostat=flag) text
-      if (flag /= 0) call lament_output()
+      rest = text//new_line("a")
+      do while (len(rest) > 0)
+         done = c_write(1_c_int, c_loc(rest), len(rest, kind=c_size_t))
+         if (done <= 0) then
+            call complain("cannot write to standard output")
+            call c_exit_at_once(int(exit_io, c_int))
+         end if
+         rest = rest(done + 1:)
+      end do
    end subroutine say
 
    !> A line for standard error.
@@ -42,6 +56,7 @@ contains
       integer :: flag
 
       write(error_unit, '(a)', iostat=flag) "reedvalve: "//text
+      flush(error_unit)
       if (flag /= 0) call c_exit_at_once(int(exit_io, c_int))   ! nobody is left to tell
    end subroutine complain
 
@@ -59,23 +74,12 @@ contains
       end select
    end function status_of
 
-   !> End the program; what was said must have arrived.
    subroutine end_program(status)
       integer, intent(in) :: status
-      integer :: flag
 
-      flush(output_unit, iostat=flag)
-      if (flag /= 0) call lament_output()
-      flush(error_unit)
       ! HDF5 may crash in its own clean-up after a write that failed for want of room
       if (status >= exit_io) call c_exit_at_once(int(status, c_int))
       call c_exit(int(status, c_int))
    end subroutine end_program
-
-   subroutine lament_output()
-      call complain("cannot write to standard output")
-      flush(error_unit)
-      call c_exit_at_once(int(exit_io, c_int))
-   end subroutine lament_output
 
 end module rv_cli_output

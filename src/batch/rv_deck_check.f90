@@ -23,14 +23,15 @@ module rv_deck_check
    !> Rules that tie values of one case together, and the keys each looks at.
    integer, parameter :: hole_fits = 1, ramp_fits = 2, event_in_trace = 3, end_in_trace = 4, &
       & few_periods = 5, event_not_negative = 6, event_before_end = 7, n_rules = 7
-   integer, parameter :: rule_keys(4, n_rules) = reshape([ &
-      & key_reed_hole_diameter_mm, key_reed_width_mm, 0, 0, &
-      & key_pressure_transition_ms, key_pressure_period_ms, 0, 0, &
-      & key_pressure_event_ms, key_pressure_file, key_pressure_kind, 0, &
-      & key_run_t_end_ms, key_pressure_file, key_pressure_kind, 0, &
-      & key_run_t_end_ms, key_pressure_period_ms, key_pressure_kind, 0, &
-      & key_pressure_event_ms, key_pressure_kind, 0, 0, &
-      & key_run_t_end_ms, key_pressure_event_ms, key_pressure_period_ms, key_pressure_transition_ms], [4, n_rules])
+   integer, parameter :: rule_keys(5, n_rules) = reshape([ &
+      & key_reed_hole_diameter_mm, key_reed_width_mm, 0, 0, 0, &
+      & key_pressure_transition_ms, key_pressure_period_ms, key_pressure_kind, 0, 0, &
+      & key_pressure_event_ms, key_pressure_file, key_pressure_kind, 0, 0, &
+      & key_run_t_end_ms, key_pressure_file, key_pressure_kind, 0, 0, &
+      & key_run_t_end_ms, key_pressure_period_ms, key_pressure_kind, 0, 0, &
+      & key_pressure_event_ms, key_pressure_kind, 0, 0, 0, &
+      & key_run_t_end_ms, key_pressure_event_ms, key_pressure_period_ms, key_pressure_transition_ms, &
+      & key_pressure_file], [5, n_rules])
 
 contains
 

@@ -54,7 +54,8 @@ contains
             cycle
          end if
          call check_repeated_group(draft, g)
-         if (draft%scan%group(g)%is_empty) call draft%warn(draft%scan%group(g)%name, "&"//group//" is empty")
+         if (draft%scan%group(g)%is_empty .and. group /= "sweep" .and. group /= "design") &
+            & call draft%warn(draft%scan%group(g)%name, "&"//group//" is empty")
          do e = draft%scan%group(g)%first_entry, draft%scan%group(g)%last_entry
             call find_entry(draft, group, draft%scan%group(g)%first_entry, e)
          end do

@@ -249,6 +249,16 @@ void rv_posix_list_close(void *list)
    closedir(list);
 }
 
+/* A program started with one of 0, 1, 2 closed would get that number for its next file, and then print into it. */
+void rv_posix_keep_standard_files(void)
+{
+   int fd;
+
+   do fd = open("/dev/null", O_RDWR);
+   while (fd >= 0 && fd <= STDERR_FILENO);
+   if (fd >= 0) close(fd);
+}
+
 int rv_posix_is_terminal(int fd)
 {
    return isatty(fd) == 1;

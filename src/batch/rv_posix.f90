@@ -10,7 +10,7 @@ module rv_posix
    public :: path_kind, path_none, path_file, path_folder, path_other, free_bytes, check_room
    public :: make_folder, remove_folder, remove_file, rename_path, sync_folder, list_folder
    public :: lock_file, lock_ours, lock_held, lock_none
-   public :: catch_signals, signal_seen, is_terminal, terminal_width
+   public :: catch_signals, signal_seen, keep_standard_files, is_terminal, terminal_width
    public :: seconds, utc_date, host_name, process_number, number_text, get_reason, c_text
 
    integer, parameter :: path_none = 0    !! nothing of that name
@@ -94,6 +94,8 @@ module rv_posix
          import :: c_ptr
          type(c_ptr), value :: list
       end subroutine c_list_close
+      subroutine keep_standard_files() bind(C, name="rv_posix_keep_standard_files")
+      end subroutine keep_standard_files
       integer(c_int) function c_is_terminal(fd) bind(C, name="rv_posix_is_terminal")
          import :: c_int
          integer(c_int), value :: fd

@@ -25,6 +25,7 @@ int rv_posix_lock(const char *path, const char *holder, int *fd, int *state);
 int rv_posix_list_open(const char *path, void **list);
 int rv_posix_list_next(void *list, char *name, size_t size);
 void rv_posix_list_close(void *list);
+void rv_posix_keep_standard_files(void);
 int rv_posix_is_terminal(int fd);
 int rv_posix_terminal_width(int fd);
 double rv_posix_seconds(void);

@@ -38,6 +38,7 @@ module rv_trace_file
       integer :: column(quantities) = 0
       real(wp) :: multiply(quantities) = 1.0_wp   !! to SI
       real(wp) :: divide(quantities) = 1.0_wp
+      character(len=12) :: name(quantities) = ""  !! in the header
    end type column_map
 
 contains
@@ -88,23 +89,38 @@ contains
       do i = 1, reader%fields
          word = lower(reader%word(i))
          call find_quantity(word, quantity, multiply, divide)
-         if (quantity == 0) then
-            call faults%warn(path, reader%line, reader%field(i)%column, "column '"//clip(word, 40)//"' is not used")
-         else if (map%column(quantity) > 0) then
+         if (quantity == 0) cycle
+         if (map%column(quantity) > 0) then
             call faults%add(path, reader%line, reader%field(i)%column, "a second column of this kind: "//word)
          else
             map%column(quantity) = i
             map%multiply(quantity) = multiply
             map%divide(quantity) = divide
+            map%name(quantity) = word
          end if
       end do
-      if (is_complete(map)) return
-      if (scan(reader%text, ";") > 0 .and. reader%fields == 1) then
+      if (is_complete(map)) then
+         call warn_unused(reader, path, faults)
+      else if (reader%fields == 1 .and. index(reader%word(1), ";") > 0) then
          call faults%add(path, reader%line, 1, "columns are separated by commas, and decimals have a point")
       else
          call faults%add(path, reader%line, 1, due)
       end if
    end subroutine read_header
+
+   subroutine warn_unused(reader, path, faults)
+      type(csv_reader), intent(in) :: reader
+      character(len=*), intent(in) :: path
+      type(fault_list), intent(inout) :: faults
+      real(wp) :: multiply, divide
+      integer :: i, quantity
+
+      do i = 1, reader%fields
+         call find_quantity(lower(reader%word(i)), quantity, multiply, divide)
+         if (quantity == 0) call faults%warn(path, reader%line, reader%field(i)%column, &
+            & "column '"//clip(reader%word(i), 40)//"' is not used")
+      end do
+   end subroutine warn_unused
 
    !> Time, and either both pressures or their difference?
    pure logical function is_complete(map)
@@ -206,7 +222,7 @@ contains
          if (trouble == "" .and. abs(sample(quantity)) > limit) trouble = "beyond the limit of " &
             & //to_text(limit)//merge(" s ", " Pa", quantity == is_time)
          if (trouble == "") cycle
-         call faults%add(path, reader%line, reader%field(column)%column, trim(quantity_name(quantity))//" = '" &
+         call faults%add(path, reader%line, reader%field(column)%column, trim(map%name(quantity))//" = '" &
             & //clip(reader%word(column), 40)//"': "//trim(trouble))
       end do
    end subroutine read_row

@@ -105,7 +105,8 @@ contains
       call says(suite, "no pressure at all", "&pressure outlet_kpa = 0 /", "")
       call says(suite, "seconds", "&run t_end_ms = 0.04 /", &
          & "@:1:17: warning: run.t_end_ms = 0.04: unusually small for ms; was it given in s?~" &
-         & //"@:1:17: warning: run.t_end_ms = 0.04 ends the run before closing starts at 19.5 ms; no closing is measured")
+         & //"@:1:17: warning: run.t_end_ms = 0.04 ends the run " &
+         & //"before closing starts at 19.5 ms; no closing is measured")
       call says(suite, "millipascal second", "&fluid viscosity_pa_s = 48.4 /", &
          & "@:1:25: warning: fluid.viscosity_pa_s = 48.4: unusually large for Pa s; was it given in mPa s?")
       call says(suite, "grams", "&fluid density_kg_m3 = 0.00875 /", &
