@@ -10,18 +10,19 @@ module rv_block
    use rv_error, only : error_type
    use rv_cases, only : deck_type
    use rv_columns, only : column_type, measure_columns, fact_columns, trace_columns, n_facts, n_traces
-   use rv_keys, only : n_keys, kind_trace, key_run_start, key_run_t_end_ms, key_run_traces, key_run_trace_dt_ms, &
-      & key_run_block_size, key_pressure_kind, key_pressure_period_ms, key_pressure_transition_ms, key_pressure_file, &
-      & key_pressure_event_ms, key_solver_rtol, key_solver_max_steps, key_solver_width
+   use rv_keys, only : n_keys, model_film, key_run_model, key_run_start, key_run_t_end_ms, key_run_traces, &
+      & key_run_trace_dt_ms, key_run_block_size, key_film_gap_mm, key_film_vapour_pressure_kpa, &
+      & key_fluid_viscosity_pa_s, key_pressure_kind, key_pressure_inlet_kpa, key_pressure_period_ms, &
+      & key_pressure_transition_ms, key_pressure_file, key_pressure_event_ms, key_solver_rtol, key_solver_max_steps, &
+      & key_solver_width
    use rv_lanes, only : lane_outcome, run_lanes
-   use rv_lumped, only : lumped_lanes, lumped_valve, new_lumped_lanes
    use rv_measures, only : n_measures
    use rv_pressure, only : pressure_history
    use rv_sort, only : sorted_order
-   use rv_status, only : status_ok, status_bad_case
-   use rv_text, only : text_type
+   use rv_status, only : status_ok, status_bad_case, warn_cavitation
+   use rv_text, only : text_type, to_text
+   use rv_valve_case, only : planform_cache, case_facts, new_case_lanes, new_history, settings_of, planform_key, n_planform
    use rv_valve_lanes, only : valve_lanes
-   use rv_valve_case, only : new_valve, new_history, settings_of
    implicit none
    private
    public :: block_result, run_block, trace_times, block_count, block_bounds
@@ -39,9 +40,11 @@ module rv_block
       real(wp), allocatable :: trace(:, :, :)      !! (time, n_traces, n); NaN outside the case's run
    end type block_result
 
-   !> What lanes of one group must share.
-   integer, parameter :: shared_keys(9) = [key_pressure_kind, key_pressure_period_ms, key_pressure_transition_ms, &
-      & key_pressure_file, key_pressure_event_ms, key_run_t_end_ms, key_run_start, key_solver_rtol, key_solver_max_steps]
+   !> What lanes of one group must share, besides the planform of film models.
+   integer, parameter :: shared_keys(10) = [key_run_model, key_pressure_kind, key_pressure_period_ms, &
+      & key_pressure_transition_ms, key_pressure_file, key_pressure_event_ms, key_run_t_end_ms, key_run_start, &
+      & key_solver_rtol, key_solver_max_steps]
+   integer, parameter :: n_shared = n_planform + size(shared_keys)
 
    integer(i8), parameter :: most_trace_bytes = 64*1024**2  !! of one block's traces in memory
 
@@ -52,80 +55,123 @@ contains
       type(deck_type), intent(in) :: deck
       integer(i8), intent(in) :: first, last   !! 1 <= first <= last <= case_count
       type(block_result), intent(out) :: result
-      type(lumped_valve), allocatable :: valve(:)
+      type(planform_cache) :: cache
       real(wp), allocatable :: value(:, :), order_by(:, :), time(:)
       integer, allocatable :: order(:)
-      type(error_type), allocatable :: error
-      integer :: n, i, k, top, width
+      integer :: n, i, top
 
       n = int(last - first) + 1
-      allocate(valve(n), value(n_keys, n), order_by(size(shared_keys) + 2, n))
+      allocate(value(n_keys, n), order_by(n_shared + 2, n))
       time = trace_times(deck)
       call prepare(result, first, n, size(time))
       do i = 1, n
          call deck%case_values(first + i - 1, value(:, i))
-         call new_valve(value(:, i), valve(i), result%fact(:, i), result%warnings(i), result%message(i)%s, error)
-         if (allocated(error)) call refuse(result, i, error)
-         order_by(:, i) = [value(shared_keys, i), valve(i)%squeeze/(valve(i)%mass*valve(i)%gap**3), &
-            & (valve(i)%inlet - valve(i)%outlet)*valve(i)%area/valve(i)%stiffness]
+         order_by(:, i) = [planform_key(value(:, i)), value(shared_keys, i), &
+            & value(key_fluid_viscosity_pa_s, i)/value(key_film_gap_mm, i)**3, value(key_pressure_inlet_kpa, i)]
       end do
       where (ieee_is_nan(order_by)) order_by = -huge(1.0_wp)
 
       order = sorted_order(order_by)
-      order = pack(order, result%status(order) == status_ok)
-      width = nint(deck%value(key_solver_width))
       i = 1
-      do while (i <= size(order))
-         top = min(i + width - 1, size(order))
-         do k = i + 1, top
-            if (any(abs(order_by(:size(shared_keys), order(k)) - order_by(:size(shared_keys), order(i))) > 0.0_wp)) then
-               top = k - 1
-               exit
-            end if
-         end do
-         call run_group(deck, value(:, order(i)), valve(order(i:top)), order(i:top), time, result)
+      do while (i <= n)
+         top = last_of_group(order_by(:n_shared, order(i:)), widest_group(deck, value(:, order(i)))) + i - 1
+         call run_group(deck, value(:, order(i:top)), order(i:top), time, cache, result)
          i = top + 1
       end do
    end subroutine run_block
 
-   !> Run the lanes of one group and put their results in place.
-   subroutine run_group(deck, value, valve, place, time, result)
+   !> How many of the first columns are equal, at most `widest`.
+   pure integer function last_of_group(shared, widest) result(last)
+      real(wp), intent(in) :: shared(:, :)
+      integer, intent(in) :: widest
+
+      do last = 2, min(widest, size(shared, 2))
+         if (any(abs(shared(:, last) - shared(:, 1)) > 0.0_wp)) exit
+      end do
+      last = last - 1
+   end function last_of_group
+
+   !> Lanes an integrator may have: solver.width; one where states have many degrees of freedom.
+   pure integer function widest_group(deck, value) result(width)
       type(deck_type), intent(in) :: deck
-      real(wp), intent(in) :: value(n_keys)     !! of any case of the group: the shared keys count
-      type(lumped_valve), intent(in) :: valve(:)
-      integer, intent(in) :: place(:)           !! (size(valve)) place in the block
+      real(wp), intent(in) :: value(n_keys)
+
+      width = nint(deck%value(key_solver_width))
+      if (nint(value(key_run_model)) == model_film) width = 1
+   end function widest_group
+
+   !> Run the lanes of one group and put their results in place.
+   subroutine run_group(deck, value, place, time, cache, result)
+      type(deck_type), intent(in) :: deck
+      real(wp), intent(in) :: value(:, :)       !! (n_keys, cases of the group)
+      integer, intent(in) :: place(:)           !! their places in the block
       real(wp), intent(in) :: time(:)
+      type(planform_cache), intent(inout) :: cache
       type(block_result), intent(inout) :: result
       class(pressure_history), allocatable :: history
-      type(lumped_lanes) :: lumped
       class(valve_lanes), allocatable :: lanes
+      type(case_facts) :: facts(size(place))
       type(lane_outcome) :: outcome
       type(error_type), allocatable :: error
-      integer :: i
+      integer :: i, lane
 
-      call new_history(value, deck%trace, history, error)
-      if (allocated(error)) then
-         do i = 1, size(place)
-            call refuse(result, place(i), error)
-         end do
-         return
-      end if
-      call new_lumped_lanes(lumped, valve)
-      allocate(lanes, source=lumped)
-      call run_lanes(lanes, history, settings_of(value), time, outcome)
+      call new_case_lanes(value, cache, lanes, facts)
+      call new_history(value(:, 1), deck%trace, history, error)
+      if (.not. allocated(error) .and. allocated(lanes)) &
+         & call run_lanes(lanes, history, settings_of(value(:, 1)), time, outcome)
+      lane = 0
       do i = 1, size(place)
-         result%measure(:, place(i)) = outcome%measure(:, i)
-         result%status(place(i)) = outcome%status(i)
-         if (outcome%status(i) /= status_ok) result%message(place(i))%s = outcome%message(i)%s
-         result%trace(:, :, place(i)) = outcome%trace(:, :, i)
+         if (allocated(error) .and. .not. allocated(facts(i)%error)) facts(i)%error = error
+         if (allocated(facts(i)%error)) then
+            result%status(place(i)) = status_bad_case
+            result%message(place(i))%s = facts(i)%error%message
+            cycle
+         end if
+         lane = lane + 1
+         call note_outcome(value(:, i), facts(i), outcome, lane, place(i), result)
       end do
    end subroutine run_group
+
+   !> Results of one lane. A failure's reason goes before warnings.
+   subroutine note_outcome(value, facts, outcome, lane, place, result)
+      real(wp), intent(in) :: value(n_keys)
+      type(case_facts), intent(in) :: facts
+      type(lane_outcome), intent(in) :: outcome
+      integer, intent(in) :: lane, place
+      type(block_result), intent(inout) :: result
+      real(wp) :: lowest
+      integer :: traces
+
+      traces = size(outcome%trace, 2)
+      result%fact(:, place) = facts%fact
+      result%measure(:, place) = outcome%measure(:, lane)
+      result%status(place) = outcome%status(lane)
+      result%warnings(place) = facts%warnings
+      result%trace(:, :traces, place) = outcome%trace(:, :, lane)
+      if (allocated(facts%note)) result%message(place)%s = facts%note
+      lowest = outcome%lowest_pressure(lane)
+      if (lowest < huge(lowest)) then
+         result%fact(n_facts, place) = lowest
+         if (lowest < value(key_film_vapour_pressure_kpa)) then
+            result%warnings(place) = ior(result%warnings(place), warn_cavitation)
+            if (result%message(place)%s == "") then
+               result%message(place)%s = "warning: "
+            else
+               result%message(place)%s = result%message(place)%s//"; "
+            end if
+            result%message(place)%s = result%message(place)%s//"the film's pressure falls to " &
+               & //to_text(1.0e-3_wp*lowest, 4)//" kPa, below the vapour pressure: the oil would cavitate"
+         end if
+      end if
+      if (outcome%status(lane) /= status_ok) result%message(place)%s = outcome%message(lane)%s
+   end subroutine note_outcome
 
    subroutine prepare(result, first, n, times)
       type(block_result), intent(inout) :: result
       integer(i8), intent(in) :: first
       integer, intent(in) :: n, times
       real(wp) :: nan
+      integer :: i
 
       nan = ieee_value(1.0_wp, ieee_quiet_nan)
       result%first = first
@@ -135,16 +181,10 @@ contains
       allocate(result%status(n), source=status_ok)
       allocate(result%warnings(n), source=0)
       allocate(result%message(n))
+      do i = 1, n
+         result%message(i)%s = ""
+      end do
    end subroutine prepare
-
-   subroutine refuse(result, i, error)
-      type(block_result), intent(inout) :: result
-      integer, intent(in) :: i
-      type(error_type), intent(in) :: error
-
-      result%status(i) = status_bad_case
-      result%message(i)%s = error%message
-   end subroutine refuse
 
    !> The grid of times of all traces [s]; empty where none are asked for. It spans all cases.
    function trace_times(deck) result(time)
@@ -155,44 +195,11 @@ contains
 
       allocate(time(0))
       if (nint(deck%value(key_run_traces)) == 0) return
-      call time_span(deck, start, finish)
+      call deck%time_span(start, finish)
       dt = deck%value(key_run_trace_dt_ms)
       n = int((finish - start)/dt*(1.0_wp + 1.0e-12_wp) + 1.0e-6_wp)
       time = [(min(start + real(k, wp)*dt, finish), k = 0, n)]
    end function trace_times
-
-   !> Earliest start and latest end over the deck's axes; all combinations of an axis' values lie in between.
-   subroutine time_span(deck, start, finish)
-      type(deck_type), intent(in) :: deck
-      real(wp), intent(out) :: start, finish
-      real(wp) :: value(n_keys)
-      integer :: i
-
-      start = 0.0_wp
-      if (nint(deck%value(key_pressure_kind)) == kind_trace) then
-         start = huge(1.0_wp)
-         do i = 1, size(deck%trace)
-            start = min(start, deck%trace(i)%time(1))
-         end do
-      end if
-      finish = deck%value(key_run_t_end_ms)
-      do i = 1, size(deck%axis)
-         if (deck%axis(i)%key == key_run_t_end_ms) finish = maxval(deck%axis(i)%value)
-      end do
-      if (deck%has_design) then
-         do i = 1, size(deck%design_key)
-            if (deck%design_key(i) == key_run_t_end_ms) finish = maxval(deck%design(i, :))
-         end do
-      end if
-      if (.not. ieee_is_nan(finish)) return
-      finish = start
-      do i = 1, size(deck%trace)
-         finish = max(finish, deck%trace(i)%time(size(deck%trace(i)%time)))
-      end do
-      if (size(deck%trace) > 0) return
-      call deck%case_values(1_i8, value)
-      finish = value(key_run_t_end_ms)
-   end subroutine time_span
 
    !> Cases in a block: run.block_size, fewer where their traces would take too much memory.
    integer(i8) function cases_per_block(deck) result(n)

@@ -7,7 +7,7 @@ module rv_cases
    use rv_keys, only : keys, n_keys, n_models, full_name, value_text, choice_name, text_key, &
       & choice_key, key_run_title, key_run_model, key_run_t_end_ms, key_run_traces, key_run_trace_dt_ms, &
       & key_fluid_density_kg_m3, key_fluid_viscosity_pa_s, key_hydro_load, key_pressure_kind, key_pressure_file, &
-      & model_squeeze
+      & model_squeeze, model_film, model_film_table
    use rv_trace_file, only : trace_data
    implicit none
    private
@@ -134,7 +134,7 @@ contains
    end function swept_keys
 
    !> Is any case run with this model?
-   pure logical function uses_model(self, model)
+   elemental logical function uses_model(self, model)
       class(deck_type), intent(in) :: self
       integer, intent(in) :: model
       integer :: i
@@ -164,7 +164,8 @@ contains
       has_load = choice_name(key_hydro_load, nint(self%value(key_hydro_load))) /= "none"
       if (key == key_run_trace_dt_ms) matters = self%value(key_run_traces) > 0.5_wp
       if (key == key_fluid_density_kg_m3) matters = has_load
-      if (key == key_fluid_viscosity_pa_s) matters = has_load .or. self%uses_model(model_squeeze)
+      if (key == key_fluid_viscosity_pa_s) matters = has_load &
+         & .or. any(self%uses_model([model_squeeze, model_film, model_film_table]))
    end function matters
 
    !> A file name of the deck as one that opens from here.

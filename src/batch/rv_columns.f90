@@ -6,8 +6,8 @@ module rv_columns
    private
    public :: column_type, measure_columns, fact_columns, trace_columns, n_facts, n_traces
 
-   integer, parameter :: n_facts = 6   !! numbers of the model behind a case
-   integer, parameter :: n_traces = 5  !! values in a trace sample
+   integer, parameter :: n_facts = 7   !! numbers of the model behind a case
+   integer, parameter :: n_traces = 10 !! values in a trace sample
 
    !> One column. Written value = value in SI times to_unit.
    type :: column_type
@@ -48,7 +48,9 @@ contains
          & column_type("added_mass_kg", "kg", 1.0_wp, "added mass m_a of the fluid"), &
          & column_type("added_damping_n_s_m", "N s m-1", 1.0_wp, "added damping c_a of the fluid"), &
          & column_type("reynolds", "1", 1.0_wp, "Reynolds number at which the hydrodynamic function was taken"), &
-         & column_type("wet_frequency_hz", "Hz", 1.0_wp, "undamped natural frequency in the fluid, without film")]
+         & column_type("wet_frequency_hz", "Hz", 1.0_wp, "undamped natural frequency in the fluid, without film"), &
+         & column_type("lowest_film_kpa", "kPa", 1.0e-3_wp, &
+         & "lowest pressure in the film, at the ends of the steps (model film)")]
    end function fact_columns
 
    !> The traces.
@@ -60,7 +62,14 @@ contains
          & column_type("velocity_mm_ms", "mm ms-1", 1.0_wp, "tip velocity"), &
          & column_type("inlet_kpa", "kPa", 1.0e-3_wp, "inlet pressure"), &
          & column_type("outlet_kpa", "kPa", 1.0e-3_wp, "outlet pressure"), &
-         & column_type("squeeze_n", "N", 1.0_wp, "force of the film on the reed, positive against closing")]
+         & column_type("squeeze_n", "N", 1.0_wp, &
+         & "force of the film against the reed's motion, referred to the tip; positive against closing"), &
+         & column_type("part_a_n", "N", 1.0_wp, &
+         & "force on part A, the land at x < a, of pressure above the outlet's (film models)"), &
+         & column_type("part_b_n", "N", 1.0_wp, "force on part B, the rest of the land (film models)"), &
+         & column_type("part_c_n", "N", 1.0_wp, "force on part C, over the hole (film models)"), &
+         & column_type("leakage_mm3_ms", "mm3 ms-1", 1.0e6_wp, "flow out of the film at the free edges (film models)"), &
+         & column_type("film_low_kpa", "kPa", 1.0e-3_wp, "lowest pressure in the film (film models)")]
    end function trace_columns
 
 end module rv_columns

@@ -7,7 +7,7 @@ module rv_deck
    use rv_text_file, only : read_text_file, check_encoding, folder_of
    use rv_deck_scan, only : scan_deck
    use rv_deck_draft, only : draft_type, find_keys
-   use rv_deck_settings, only : read_settings
+   use rv_deck_settings, only : read_settings, default_by_model
    use rv_deck_sweeps, only : read_sweeps
    use rv_design, only : read_design
    use rv_deck_check, only : check_deck
@@ -68,6 +68,7 @@ contains
       call read_settings(draft)
       call read_sweeps(draft)
       call read_design(draft)
+      call default_by_model(draft%deck)
       call check_deck(draft)
    end subroutine read_text
 

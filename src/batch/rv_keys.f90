@@ -21,13 +21,15 @@ module rv_keys
       & key_reed_density_kg_m3, key_reed_youngs_modulus_gpa, key_reed_poisson_ratio, key_reed_k_a, &
       & key_reed_action_area_mm2
    public :: key_fluid_density_kg_m3, key_fluid_viscosity_pa_s, key_hydro_load
-   public :: key_film_gap_mm, key_film_k_s, key_film_acts
+   public :: key_film_gap_mm, key_film_k_s, key_film_acts, key_film_modes, key_film_mesh, key_film_edge_elongation, &
+      & key_film_vapour_pressure_kpa
    public :: key_pressure_kind, key_pressure_inlet_kpa, key_pressure_outlet_kpa, key_pressure_period_ms, &
       & key_pressure_transition_ms, key_pressure_file, key_pressure_event_ms
    public :: key_solver_rtol, key_solver_max_steps, key_solver_width
    public :: key_sweep_key, key_sweep_values, key_sweep_from, key_sweep_to, key_sweep_count, key_sweep_scale
    public :: key_design_file
-   public :: model_traditional, model_squeeze, kind_square, kind_trace, start_by_kind, start_rest, start_equilibrium
+   public :: model_traditional, model_squeeze, model_film, model_film_table, load_by_model
+   public :: kind_square, kind_trace, start_by_kind, start_rest, start_equilibrium
 
    !> Places in `keys`, in the table's order.
    enum, bind(c)
@@ -38,7 +40,8 @@ module rv_keys
       enumerator :: key_reed_poisson_ratio, key_reed_k_a, key_reed_action_area_mm2
       enumerator :: key_fluid_density_kg_m3, key_fluid_viscosity_pa_s
       enumerator :: key_hydro_load
-      enumerator :: key_film_gap_mm, key_film_k_s, key_film_acts
+      enumerator :: key_film_gap_mm, key_film_k_s, key_film_acts, key_film_modes, key_film_mesh
+      enumerator :: key_film_edge_elongation, key_film_vapour_pressure_kpa
       enumerator :: key_pressure_kind, key_pressure_inlet_kpa, key_pressure_outlet_kpa, key_pressure_period_ms
       enumerator :: key_pressure_transition_ms, key_pressure_file, key_pressure_event_ms
       enumerator :: key_solver_rtol, key_solver_max_steps, key_solver_width
@@ -52,15 +55,16 @@ module rv_keys
    integer, parameter :: real_key = 1, integer_key = 2, logical_key = 3, choice_key = 4, text_key = 5
    integer, parameter :: mixed_key = 6   !! whatever the swept key is
 
-   !> Values of run.model, pressure.kind and run.start.
-   integer, parameter :: model_traditional = 1, model_squeeze = 2, n_models = 2
+   !> Values of run.model, hydro.load (0: published for lumped, maali for film models), pressure.kind and run.start.
+   integer, parameter :: model_traditional = 1, model_squeeze = 2, model_film = 3, model_film_table = 4, n_models = 4
+   integer, parameter :: load_by_model = 0
    integer, parameter :: kind_square = 1, kind_trace = 2
    integer, parameter :: start_by_kind = 0, start_rest = 1, start_equilibrium = 2
 
    !> One key; numbers in the deck's unit.
    type :: key_type
       character(len=8) :: group
-      character(len=18) :: name
+      character(len=20) :: name
       integer :: kind
       character(len=8) :: unit       !! empty: none
       real(wp) :: factor             !! SI value = factor * deck value
@@ -70,7 +74,7 @@ module rv_keys
       character(len=110) :: help
       real(wp) :: usual_low = 0.0_wp           !! outside this range (of the magnitude) a wrong unit is likely;
       real(wp) :: usual_high = huge(1.0_wp)    !! zero is never unusual
-      character(len=32) :: choices = ""        !! separated by blanks
+      character(len=40) :: choices = ""        !! separated by blanks
       logical :: list = .false.                !! several values may be given
       logical :: sweepable = .true.
       logical :: for_model(n_models) = .true.  !! the models it matters to
@@ -79,15 +83,18 @@ module rv_keys
 
    real(wp), parameter :: milli = 1.0e-3_wp, kilo = 1.0e3_wp, giga = 1.0e9_wp, one = 1.0_wp
    real(wp), parameter :: none = 0.0_wp   !! lowest and highest where neither has a meaning
-   logical, parameter :: only_squeeze(n_models) = [.false., .true.]
-   logical, parameter :: no_model(n_models) = .false.
+   logical, parameter :: only_squeeze(n_models) = [.false., .true., .false., .false.]
+   logical, parameter :: with_film(n_models) = [.false., .true., .true., .true.]
+   logical, parameter :: only_film(n_models) = [.false., .false., .true., .true.]
+   logical, parameter :: only_modes(n_models) = [.false., .false., .true., .false.]
+   logical, parameter :: only_lumped(n_models) = [.true., .true., .false., .false.]
 
    type(key_type), parameter :: run_keys(7) = [ &
       & key_type("run", "title", text_key, "", one, "", none, 200.0_wp, &
       & "a name for the results", sweepable=.false.), &
       & key_type("run", "model", choice_key, "", one, "squeeze", none, none, &
       & "the valve model, or a list of them: every case is run with each", &
-      & choices="traditional squeeze", list=.true.), &
+      & choices="traditional squeeze film film_table", list=.true.), &
       & key_type("run", "start", choice_key, "", one, "", none, none, &
       & "u = 0, or the static equilibrium under the first pressure; default: rest, for traces equilibrium", &
       & choices="rest equilibrium", sweepable=.false.), &
@@ -116,28 +123,40 @@ module rv_keys
       & key_type("reed", "youngs_modulus_gpa", real_key, "GPa", giga, "110.0", 1.0e-3_wp, 1.0e4_wp, &
       & "E, Young's modulus of the reed", 0.1_wp, 1500.0_wp), &
       & key_type("reed", "poisson_ratio", real_key, "", one, "0.3", -0.99_wp, 0.499_wp, &
-      & "Poisson's ratio of the reed; the lumped models do not use it", for_model=no_model), &
+      & "Poisson's ratio of the reed", for_model=only_film), &
       & key_type("reed", "k_a", real_key, "", one, "0.91", 1.0e-3_wp, 1.0e3_wp, &
-      & "k_a of Eq. (18), fitted: stiffness of the arc-shaped reed over that of the rectangle", 0.1_wp, 10.0_wp), &
+      & "k_a of Eq. (18), fitted: stiffness of the arc-shaped reed over that of the rectangle", 0.1_wp, 10.0_wp, &
+      & for_model=only_lumped), &
       & key_type("reed", "action_area_mm2", real_key, "mm2", milli**2, "", 1.0e-6_wp, 1.0e6_wp, &
-      & "A of Eq. (19), the area the pressures act on; default: the hole's, pi D^2/4", 0.01_wp, 1.0e4_wp)]
+      & "A of Eq. (19), the area the pressures act on; default: the hole's, pi D^2/4", 0.01_wp, 1.0e4_wp, &
+      & for_model=only_lumped)]
 
-   type(key_type), parameter :: medium_keys(6) = [ &
+   type(key_type), parameter :: medium_keys(10) = [ &
       & key_type("fluid", "density_kg_m3", real_key, "kg/m3", one, "875.0", 1.0e-3_wp, 1.0e5_wp, &
       & "density of the fluid", 0.01_wp, 2.0e4_wp), &
       & key_type("fluid", "viscosity_pa_s", real_key, "Pa s", one, "0.0484", 1.0e-7_wp, 1.0e4_wp, &
       & "dynamic viscosity of the fluid", 1.0e-6_wp, 10.0_wp), &
-      & key_type("hydro", "load", choice_key, "", one, "published", none, none, &
+      & key_type("hydro", "load", choice_key, "", one, "", none, none, &
       & "added mass and damping of the fluid, see docs/theory.md", &
       & choices="published maali sader none", sweepable=.false.), &
       & key_type("film", "gap_mm", real_key, "mm", milli, "0.05", 1.0e-6_wp, 1.0e3_wp, &
-      & "g0, thickness of the film under the reed at rest", 5.0e-4_wp, 10.0_wp, for_model=only_squeeze), &
+      & "g0, thickness of the film under the reed at rest", 5.0e-4_wp, 10.0_wp, for_model=with_film), &
       & key_type("film", "k_s", real_key, "", one, "0.0075", 0.0_wp, 1.0e3_wp, &
       & "k_s of Eq. (26), fitted: factor on the squeeze force (the paper prints 0.008)", &
       & for_model=only_squeeze), &
       & key_type("film", "acts", choice_key, "", one, "closing", none, none, &
       & "the squeeze force acts while the reed closes (the paper's model) or both ways", &
-      & choices="closing both", sweepable=.false., for_model=only_squeeze)]
+      & choices="closing both", sweepable=.false., for_model=only_squeeze), &
+      & key_type("film", "modes", integer_key, "", one, "4", 1.0_wp, 12.0_wp, &
+      & "plate modes of the film model", sweepable=.false., for_model=only_modes), &
+      & key_type("film", "mesh", integer_key, "", one, "1", 1.0_wp, 8.0_wp, &
+      & "refinement of the film's mesh: 1 is 12 x 3 quadratic elements on the half land, n is 12n x 3n", &
+      & sweepable=.false., for_model=only_film), &
+      & key_type("film", "edge_elongation", real_key, "", one, "0.0", 0.0_wp, 10.0_wp, &
+      & "beta: by how many film thicknesses the edges of the film reach out; Stokes flow says 0.65", &
+      & for_model=only_film), &
+      & key_type("film", "vapour_pressure_kpa", real_key, "kPa", kilo, "-101.325", -1.0e5_wp, 1.0e5_wp, &
+      & "film pressure below which a case warns of cavitation, on the scale of inlet and outlet", for_model=only_film)]
 
    type(key_type), parameter :: pressure_keys(7) = [ &
       & key_type("pressure", "kind", choice_key, "", one, "square", none, none, &

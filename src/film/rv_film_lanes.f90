@@ -71,7 +71,7 @@ contains
       self%gap = [valve%gap]
       self%has_film = [.true.]
       allocate(self%tip(valve%modes), source=1.0_wp)
-      self%lowest_pressure = [0.0_wp]
+      self%lowest_pressure = [huge(1.0_wp)]
       self%reed = reed
       self%valve = valve
       self%factor = valve%mass
@@ -162,8 +162,8 @@ contains
       slope = self%reed%film%force_slope(state, v, 0.0_wp)
       force = -dot_product(state%damping(1, :), v)
       rate = dot_product(slope(1, :), v) - dot_product(state%damping(1, :), a)
-      self%lowest_pressure(lane) = min(self%lowest_pressure(lane), &
-         & minval(self%reed%film%pressure_of(state, v, drop_of(self, inlet, outlet))))
+      self%lowest_pressure(lane) = min(self%lowest_pressure(lane), self%outlet(lane)*outlet &
+         & + minval(self%reed%film%pressure_of(state, v, drop_of(self, inlet, outlet))))
    end subroutine film_force
 
    !> K q = (p_in - p_out) (int_hole phi + int_land P_0(q) phi) by Newton's method from the film-free solution.

@@ -244,7 +244,7 @@ contains
       real(wp) :: weight(self%nodes)
       integer, parameter :: rays = 24, depth = 4
       real(wp) :: g(rays), w(rays), t, rho, slope, lo, hi, r, crossing, eta, cut(2)
-      real(wp) :: x(depth), wx(depth), around_value(3), across_value(3), unused(3), t0, t1
+      real(wp) :: x(depth), wx(depth), around_value(3), across_value(3), unused(3), shape(nodes_per_element), area, t0, t1
       integer :: e, j, k, m
 
       weight = 0.0_wp
@@ -272,9 +272,10 @@ contains
                eta = x(m)
                r = form%hole_radius + eta*(rho - form%hole_radius)
                call quadratic((eta - lo)/(hi - lo), across_value, unused)
+               shape = outer_product(around_value, across_value)
+               area = w(j)*(t1 - t0)*wx(m)*r*(rho - form%hole_radius)
                do k = 1, nodes_per_element
-                  weight(self%node(k, e)) = weight(self%node(k, e)) + w(j)*(t1 - t0)*wx(m)*r*(rho - form%hole_radius) &
-                     & *around_value((k + 2)/3)*across_value(mod(k - 1, 3) + 1)
+                  weight(self%node(k, e)) = weight(self%node(k, e)) + area*shape(k)
                end do
             end do
          end do

@@ -54,7 +54,7 @@ contains
       self%gap = valve%gap
       allocate(self%has_film(w), source=.true.)
       self%tip = [1.0_wp]
-      allocate(self%lowest_pressure(w), source=0.0_wp)
+      allocate(self%lowest_pressure(w), source=huge(1.0_wp))
       self%inverse_mass = 1.0_wp/(valve%static_mass + valve%static_added_mass)
       self%damping = valve%static_damping
       self%stiffness = valve%static_stiffness

@@ -42,7 +42,7 @@ module rv_lanes
       type(text_type), allocatable :: message(:) !! why and when a lane failed, else empty
       real(wp), allocatable :: measure(:, :)     !! (n_measures, width)
       real(wp), allocatable :: trace(:, :, :)    !! (time, traces, width)
-      real(wp), allocatable :: lowest_pressure(:) !! of the film, relative to the outlet [Pa]
+      real(wp), allocatable :: lowest_pressure(:) !! lowest pressure seen in the film [Pa]; huge if none was
       integer :: steps = 0                       !! accepted
    end type lane_outcome
 

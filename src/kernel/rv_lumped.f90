@@ -67,7 +67,7 @@ contains
       self%has_film = valve%squeeze > 0.0_wp
       self%gap = merge(valve%gap, no_film_gap, self%has_film)
       self%tip = [1.0_wp]
-      allocate(self%lowest_pressure(size(valve)), source=0.0_wp)
+      allocate(self%lowest_pressure(size(valve)), source=huge(1.0_wp))
       self%squeeze = valve%squeeze
       self%inverse_mass = 1.0_wp/valve%mass
       self%damping = valve%damping
