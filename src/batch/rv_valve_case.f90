@@ -28,7 +28,7 @@ module rv_valve_case
    use rv_valve_lanes, only : valve_lanes
    implicit none
    private
-   public :: planform_cache, case_facts, new_case_lanes, new_history, settings_of, planform_key, n_planform
+   public :: planform_cache, case_facts, new_case_lanes, film_of_case, new_history, settings_of, planform_key, n_planform
 
    real(wp), parameter :: most_periods = 1.0e5_wp  !! periods in one run; each has four stops
    real(wp), parameter :: wide_gap = 0.15e-3_wp    !! Navier-Stokes over lubrication: 0.95 at this film thickness [m]
@@ -170,6 +170,26 @@ contains
       call add_note(facts, "at a gap of "//to_text(1.0e3_wp*valve%gap, 4) &
          & //" mm lubrication theory overstates the steady load on the land")
    end subroutine new_film_case
+
+   !> Planform and film valve of one case, whatever its model: what a film model would make of it.
+   subroutine film_of_case(value, reed, valve, error)
+      real(wp), intent(in) :: value(n_keys)
+      type(film_reed), intent(out) :: reed
+      type(film_valve), intent(out) :: valve
+      type(error_type), allocatable, intent(out) :: error
+      type(planform_cache) :: cache
+      type(case_facts) :: facts
+      real(wp) :: as_film(n_keys)
+
+      as_film = value
+      as_film(key_run_model) = real(model_film, wp)
+      if (nint(value(key_hydro_load)) == load_published) as_film(key_hydro_load) = real(load_by_model, wp)
+      call keep_planform(as_film, cache, error)
+      if (allocated(error)) return
+      reed = cache%reed
+      call new_film_case(as_film, reed, valve, facts)
+      if (allocated(facts%error)) call move_alloc(facts%error, error)
+   end subroutine film_of_case
 
    !> Solve a planform unless it is the one at hand.
    subroutine keep_planform(value, cache, error)

@@ -1,5 +1,6 @@
 !> The film model with N plate modes, as lanes of one case each.
 module rv_film_lanes
+   use, intrinsic :: ieee_arithmetic, only : ieee_value, ieee_quiet_nan
    use rv_kinds, only : wp
    use rv_error, only : error_type
    use rv_film_reed, only : film_reed
@@ -8,7 +9,7 @@ module rv_film_lanes
    use rv_valve_lanes, only : valve_lanes
    implicit none
    private
-   public :: film_lanes, new_film_lanes, film_trace, film_traces
+   public :: film_lanes, new_film_lanes, film_trace, film_traces, film_field
 
    integer, parameter :: film_traces = 10  !! values of film_trace
 
@@ -52,6 +53,7 @@ module rv_film_lanes
       procedure :: scales
       procedure :: trace_values
       procedure :: silence
+      procedure :: pressure_field
    end type film_lanes
 
 contains
@@ -66,6 +68,7 @@ contains
       self%width = 1
       self%dofs = valve%modes
       self%traces = film_traces
+      self%nodes = reed%film%mesh%nodes
       self%inlet = [valve%inlet]
       self%outlet = [valve%outlet]
       self%gap = [valve%gap]
@@ -231,7 +234,6 @@ contains
    !> x < a), B (rest of the land) and C (hole) of pressure above the outlet's [N]; flow out at the free edges
    !> [m3 s-1]; lowest film pressure [Pa]. What needs a film is NaN where it is closed.
    function film_trace(reed, film, gap, viscosity, inlet, outlet, q, v) result(value)
-      use, intrinsic :: ieee_arithmetic, only : ieee_value, ieee_quiet_nan
       type(film_reed), intent(in) :: reed
       type(film_type), intent(in) :: film
       real(wp), intent(in) :: gap, viscosity, inlet, outlet, q(:), v(:)
@@ -253,6 +255,30 @@ contains
       value(9) = out
       value(10) = outlet + minval(p)
    end function film_trace
+
+   subroutine pressure_field(self, lane, inlet, outlet, q, v, pressure)
+      class(film_lanes), intent(inout) :: self
+      integer, intent(in) :: lane
+      real(wp), intent(in) :: inlet, outlet
+      real(wp), intent(in) :: q(self%dofs), v(self%dofs)
+      real(wp), intent(out) :: pressure(self%nodes)
+
+      pressure = film_field(self%reed%film, self%valve%gap, self%valve%viscosity, &
+         & self%inlet(lane)*inlet, self%outlet(lane)*outlet, q, v)
+   end subroutine pressure_field
+
+   !> Film pressure at the nodes [Pa], on the scale of inlet and outlet; NaN where the film is closed.
+   function film_field(film, gap, viscosity, inlet, outlet, q, v) result(p)
+      type(film_type), intent(in) :: film
+      real(wp), intent(in) :: gap, viscosity, inlet, outlet, q(:), v(:)
+      real(wp) :: p(film%mesh%nodes)
+      type(film_state) :: state
+      type(error_type), allocatable :: error
+
+      p = ieee_value(1.0_wp, ieee_quiet_nan)
+      call film%solve(gap, viscosity, q, state, error)
+      if (.not. allocated(error)) p = outlet + film%pressure_of(state, v, inlet - outlet)
+   end function film_field
 
    subroutine silence(self, lane)
       class(film_lanes), intent(inout) :: self

@@ -4,7 +4,7 @@
 !> two-state equation of the lumped models with a first-principles film. All lanes share one planform.
 module rv_table_lanes
    use rv_kinds, only : wp
-   use rv_film_lanes, only : film_trace, film_traces
+   use rv_film_lanes, only : film_field, film_trace, film_traces
    use rv_film_reed, only : film_reed
    use rv_film_table, only : film_table
    use rv_film_valve, only : film_valve
@@ -32,6 +32,7 @@ module rv_table_lanes
       procedure :: scales
       procedure :: trace_values
       procedure :: silence
+      procedure :: pressure_field
    end type table_lanes
 
 contains
@@ -47,6 +48,7 @@ contains
       w = size(valve)
       self%width = w
       self%traces = film_traces
+      self%nodes = reed%static_film%mesh%nodes
       self%reed = reed
       self%table = table
       self%inlet = valve%inlet
@@ -173,6 +175,17 @@ contains
       value = film_trace(self%reed, self%reed%static_film, self%gap(lane), self%viscosity(lane), &
          & self%inlet(lane)*inlet, self%outlet(lane)*outlet, q, v)
    end subroutine trace_values
+
+   subroutine pressure_field(self, lane, inlet, outlet, q, v, pressure)
+      class(table_lanes), intent(inout) :: self
+      integer, intent(in) :: lane
+      real(wp), intent(in) :: inlet, outlet
+      real(wp), intent(in) :: q(self%dofs), v(self%dofs)
+      real(wp), intent(out) :: pressure(self%nodes)
+
+      pressure = film_field(self%reed%static_film, self%gap(lane), self%viscosity(lane), &
+         & self%inlet(lane)*inlet, self%outlet(lane)*outlet, q, v)
+   end subroutine pressure_field
 
    subroutine silence(self, lane)
       class(table_lanes), intent(inout) :: self

@@ -42,6 +42,7 @@ module rv_lanes
       type(text_type), allocatable :: message(:) !! why and when a lane failed, else empty
       real(wp), allocatable :: measure(:, :)     !! (n_measures, width)
       real(wp), allocatable :: trace(:, :, :)    !! (time, traces, width)
+      real(wp), allocatable :: field(:, :, :)    !! film pressure (nodes, field time, width) [Pa]
       real(wp), allocatable :: lowest_pressure(:) !! lowest pressure seen in the film [Pa]; huge if none was
       integer :: steps = 0                       !! accepted
    end type lane_outcome
@@ -61,12 +62,13 @@ module rv_lanes
 contains
 
    !> Integrate all cases from the start of the history to settings%t_end. The lanes are used up.
-   subroutine run_lanes(lanes, history, settings, trace_time, outcome)
+   subroutine run_lanes(lanes, history, settings, trace_time, outcome, field_time)
       class(valve_lanes), allocatable, intent(inout) :: lanes
       class(pressure_history), intent(in) :: history
       type(lane_settings), intent(in) :: settings
       real(wp), intent(in) :: trace_time(:)     !! [s], rising; may be empty
       type(lane_outcome), intent(out) :: outcome
+      real(wp), intent(in), optional :: field_time(:)   !! of film pressure fields [s], rising
       type(problem_type), target :: problem
       type(measure_lanes) :: measures
       type(sampler_type) :: sampler
@@ -87,7 +89,11 @@ contains
       call begin_step(problem, history%start, y, step)
       call new_measure_lanes(measures, history%start, history%event, min(history%cycle_end, settings%t_end), &
          & steady_state(problem), step%u1)
-      call new_sampler(sampler, trace_time, problem%lanes)
+      if (present(field_time)) then
+         call new_sampler(sampler, trace_time, field_time, problem%lanes)
+      else
+         call new_sampler(sampler, trace_time, [real(wp) ::], problem%lanes)
+      end if
       call sampler%sample(step, problem%lanes, history)
 
       if (any(outcome%status == status_ok)) then
@@ -103,6 +109,7 @@ contains
       end do
       outcome%lowest_pressure = problem%lanes%lowest_pressure
       call move_alloc(sampler%value, outcome%trace)
+      call move_alloc(sampler%field, outcome%field)
    end subroutine run_lanes
 
    !> Initial state: at rest on u = 0, or at the static equilibrium. A lane that has none is taken out.

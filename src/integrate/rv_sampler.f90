@@ -1,4 +1,4 @@
-!> Traces: the response on a grid of times, from dense output.
+!> Traces and fields: the response at given times, from dense output.
 module rv_sampler
    use, intrinsic :: ieee_arithmetic, only : ieee_value, ieee_quiet_nan
    use rv_kinds, only : wp
@@ -10,49 +10,71 @@ module rv_sampler
    private
    public :: sampler_type, new_sampler
 
-   !> Samples taken so far.
+   !> Samples taken so far: traces, and film pressure fields on a grid of their own.
    type :: sampler_type
-      real(wp), allocatable :: time(:)        !! the grid [s], rising
       real(wp), allocatable :: value(:, :, :) !! (time, traces, width); NaN where the case did not get to
-      integer, private :: next = 1            !! first grid time still to be sampled
+      real(wp), allocatable :: field(:, :, :) !! (nodes, field time, width) [Pa]; NaN likewise
+      real(wp), allocatable, private :: time(:), field_time(:)   !! the grids [s], rising
+      integer, private :: next = 1, next_field = 1               !! first times still to be sampled
    contains
       procedure :: sample
    end type sampler_type
 
 contains
 
-   pure subroutine new_sampler(self, time, lanes)
+   pure subroutine new_sampler(self, time, field_time, lanes)
       type(sampler_type), intent(out) :: self
-      real(wp), intent(in) :: time(:)
+      real(wp), intent(in) :: time(:), field_time(:)
       class(valve_lanes), intent(in) :: lanes
+      real(wp) :: nan
 
+      nan = ieee_value(1.0_wp, ieee_quiet_nan)
       self%time = time
-      allocate(self%value(size(time), lanes%traces, lanes%width), source=ieee_value(1.0_wp, ieee_quiet_nan))
+      self%field_time = field_time
+      allocate(self%value(size(time), lanes%traces, lanes%width), source=nan)
+      allocate(self%field(lanes%nodes, size(field_time), lanes%width), source=nan)
    end subroutine new_sampler
 
-   !> Fill the grid up to the end of a step. A step of no length samples its instant.
+   !> Fill the grids up to the end of a step. A step of no length samples its instant.
    subroutine sample(self, step, lanes, history)
       class(sampler_type), intent(inout) :: self
       type(step_type), intent(in) :: step
       class(valve_lanes), intent(inout) :: lanes
       class(pressure_history), intent(in) :: history
-      real(wp) :: t, inlet, outlet
+      real(wp) :: inlet, outlet
       real(wp), dimension(lanes%dofs) :: q, v
       integer :: i
 
-      do while (self%next <= size(self%time))
-         t = self%time(self%next)
-         if (t > step%t1) return
-         if (t >= step%t0) then   ! else before the start of this case
-            call history%factors(t, inlet, outlet)
+      do while (is_due(self%time, self%next, step))
+         if (self%time(self%next) >= step%t0) then   ! else before the start of this case
+            call history%factors(self%time(self%next), inlet, outlet)
             do i = 1, step%width
-               call state_at(step, i, t, q, v)
+               call state_at(step, i, self%time(self%next), q, v)
                call lanes%trace_values(i, inlet, outlet, q, v, self%value(self%next, :, i))
             end do
          end if
          self%next = self%next + 1
       end do
+      do while (is_due(self%field_time, self%next_field, step))
+         if (self%field_time(self%next_field) >= step%t0) then
+            call history%factors(self%field_time(self%next_field), inlet, outlet)
+            do i = 1, step%width
+               call state_at(step, i, self%field_time(self%next_field), q, v)
+               call lanes%pressure_field(i, inlet, outlet, q, v, self%field(:, self%next_field, i))
+            end do
+         end if
+         self%next_field = self%next_field + 1
+      end do
    end subroutine sample
+
+   pure logical function is_due(time, next, step)
+      real(wp), intent(in) :: time(:)
+      integer, intent(in) :: next
+      type(step_type), intent(in) :: step
+
+      is_due = .false.
+      if (next <= size(time)) is_due = time(next) <= step%t1
+   end function is_due
 
    pure subroutine state_at(step, i, t, q, v)
       type(step_type), intent(in) :: step

@@ -15,6 +15,7 @@ module rv_valve_lanes
       integer :: width = 0                         !! cases
       integer :: dofs = 1                          !! degrees of freedom of a case
       integer :: traces = 0                        !! values in a trace sample
+      integer :: nodes = 0                         !! nodes of a film pressure field; 0: the model has none
       real(wp), allocatable :: inlet(:), outlet(:) !! amplitudes of the pressure history [Pa] or [-], (width)
       real(wp), allocatable :: gap(:)              !! g0 [m], (width)
       logical, allocatable :: has_film(:)          !! (width)
@@ -28,6 +29,7 @@ module rv_valve_lanes
       procedure(scales_of), deferred :: scales
       procedure(trace_of), deferred :: trace_values
       procedure(silence_lane), deferred :: silence
+      procedure :: pressure_field
    end type valve_lanes
 
    abstract interface
@@ -103,5 +105,20 @@ module rv_valve_lanes
          integer, intent(in) :: lane
       end subroutine silence_lane
    end interface
+
+contains
+
+   !> Film pressure of one lane at the nodes of its mesh [Pa]. Models without a film field have no nodes.
+   subroutine pressure_field(self, lane, inlet, outlet, q, v, pressure)
+      class(valve_lanes), intent(inout) :: self
+      integer, intent(in) :: lane
+      real(wp), intent(in) :: inlet, outlet
+      real(wp), intent(in) :: q(self%dofs), v(self%dofs)
+      real(wp), intent(out) :: pressure(self%nodes)
+
+      associate (unused => [inlet, outlet, q, v, real(lane, wp)])
+      end associate
+      pressure = 0.0_wp
+   end subroutine pressure_field
 
 end module rv_valve_lanes
