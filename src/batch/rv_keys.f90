@@ -244,7 +244,7 @@ contains
       end select
    end function default_value
 
-   !> From the deck's unit to SI. Powers of ten below one divide, so that 0.05 mm is the double nearest 5e-5 m.
+   !> From the deck's unit to SI. Powers of ten below one divide, for one rounding instead of two.
    elemental real(wp) function to_si(key, value) result(si)
       integer, intent(in) :: key
       real(wp), intent(in) :: value   !! in the deck's unit

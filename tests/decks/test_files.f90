@@ -86,6 +86,8 @@ contains
       call tell_trace("no gap", "t_ms,p_diff_kpa~1,2~2,2~3,4~4,4~24,3~25,3~", "")
       call tell_trace("binary", "t_ms,p_diff_kpa~1,"//achar(1), &
          & "t.csv:2:3: byte 01 (hexadecimal) does not belong into a text; is this a binary file?")
+      call tell_trace("a comma in quotes", "t_ms,""a, b"",p_diff_kpa~1,"","",2~2,x,2~", &
+         & "t.csv:1:6: warning: column 'a, b' is not used")
       call tell_trace("unused column", "t_ms,p_diff_kpa,note~1,2,x~2,2,y~", &
          & "t.csv:1:17: warning: column 'note' is not used")
       call says(suite, "missing trace", "&pressure kind = 'trace', file = 'none.csv', event_ms = 1 /", &
@@ -218,6 +220,12 @@ contains
       call suite%text("a line of 1 GB", faults%all_text(), "huge.nml: 'huge.nml' has 1073741824 bytes, more than the " &
          & //"8388608 such a file may have"//new_line("a"))
 
+      call write_file("long.nml", repeat(" ", 8388607)//"&")
+      call read_deck("long.nml", deck, faults, error)
+      call suite%true("the largest deck is read", index(faults%all_text(), ":1:8388608: a group's name") > 0)
+      call write_file("long.nml", repeat(" ", 8388608)//"&")
+      call read_deck("long.nml", deck, faults, error)
+      call suite%true("a larger deck is not", index(faults%all_text(), "has 8388609 bytes") > 0)
       call write_file("long.nml", "&run title = '"//repeat("x", 8000000)//"' /")
       call read_deck("long.nml", deck, faults, error)
       call suite%equal("a long line: one fault", faults%errors(), 1)

@@ -75,8 +75,8 @@ contains
       real(wp) :: x
       integer :: key, i, wrong
 
-      call suite%close("0.05 mm is the double next to 5e-5 m", to_si(key_film_gap_mm, 0.05_wp), 5.0e-5_wp, 0.0_wp, &
-         & 0.0_wp)
+      call suite%close("0.05 mm", to_si(key_film_gap_mm, 0.05_wp), 5.0e-5_wp, 0.0_wp, 0.0_wp)
+      call suite%close("0.03 mm, rounded once", to_si(key_film_gap_mm, 0.03_wp), 0.03_wp/1000.0_wp, 0.0_wp, 0.0_wp)
       call suite%text("0.05 mm", value_text(key_film_gap_mm, 5.0e-5_wp), "0.05")
       call suite%text("12.56 mm2", value_text(key_reed_action_area_mm2, to_si(key_reed_action_area_mm2, 12.56_wp)), &
          & "12.56")
