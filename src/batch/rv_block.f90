@@ -9,8 +9,9 @@ module rv_block
    use rv_kinds, only : wp, i8
    use rv_error, only : error_type
    use rv_cases, only : deck_type
-   use rv_columns, only : column_type, measure_columns, fact_columns, trace_columns, n_facts, n_traces
-   use rv_keys, only : n_keys, model_film, key_run_model, key_run_start, key_run_t_end_ms, key_run_traces, &
+   use rv_columns, only : column_type, measure_columns, fact_columns, trace_columns, n_facts, n_traces, n_lumped_traces
+   use rv_keys, only : n_keys, model_film, model_film_table, key_film_mesh, &
+      & key_run_model, key_run_start, key_run_t_end_ms, key_run_traces, &
       & key_run_trace_dt_ms, key_run_block_size, key_film_gap_mm, key_film_vapour_pressure_kpa, &
       & key_fluid_viscosity_pa_s, key_pressure_kind, key_pressure_inlet_kpa, key_pressure_period_ms, &
       & key_pressure_transition_ms, key_pressure_file, key_pressure_event_ms, key_solver_rtol, key_solver_max_steps, &
@@ -21,11 +22,12 @@ module rv_block
    use rv_sort, only : sorted_order
    use rv_status, only : status_ok, status_bad_case, warn_cavitation
    use rv_text, only : text_type, to_text
-   use rv_valve_case, only : planform_cache, case_facts, new_case_lanes, new_history, settings_of, planform_key, n_planform
+   use rv_valve_case, only : planform_cache, case_facts, new_case_lanes, new_history, settings_of, planform_key, n_planform, &
+      & mesh_nodes
    use rv_valve_lanes, only : valve_lanes
    implicit none
    private
-   public :: block_result, run_block, trace_times, block_count, block_bounds
+   public :: block_result, run_block, trace_times, trace_count, field_nodes, block_count, block_bounds
    public :: n_measures, n_facts, n_traces
    public :: column_type, measure_columns, fact_columns, trace_columns
 
@@ -37,7 +39,8 @@ module rv_block
       integer, allocatable :: status(:)            !! (n)
       integer, allocatable :: warnings(:)          !! (n) sum of bits
       type(text_type), allocatable :: message(:)   !! (n) why a case failed or what it warns of, or empty
-      real(wp), allocatable :: trace(:, :, :)      !! (time, n_traces, n); NaN outside the case's run
+      real(wp), allocatable :: trace(:, :, :)      !! (time, trace_count, n); NaN outside the case's run
+      real(wp), allocatable :: field(:, :, :)      !! film pressure (nodes, field time, n) [Pa]; NaN where there is none
    end type block_result
 
    !> What lanes of one group must share, besides the planform of film models.
@@ -63,7 +66,7 @@ contains
       n = int(last - first) + 1
       allocate(value(n_keys, n), order_by(n_shared + 2, n))
       time = trace_times(deck)
-      call prepare(result, first, n, size(time))
+      call prepare(deck, result, first, n, size(time))
       do i = 1, n
          call deck%case_values(first + i - 1, value(:, i))
          order_by(:, i) = [planform_key(value(:, i)), value(shared_keys, i), &
@@ -118,7 +121,7 @@ contains
       call new_case_lanes(value, cache, lanes, facts)
       call new_history(value(:, 1), deck%trace, history, error)
       if (.not. allocated(error) .and. allocated(lanes)) &
-         & call run_lanes(lanes, history, settings_of(value(:, 1)), time, outcome)
+         & call run_lanes(lanes, history, settings_of(value(:, 1)), time, outcome, deck%field_times())
       lane = 0
       do i = 1, size(place)
          if (allocated(error) .and. .not. allocated(facts(i)%error)) facts(i)%error = error
@@ -148,6 +151,7 @@ contains
       result%status(place) = outcome%status(lane)
       result%warnings(place) = facts%warnings
       result%trace(:, :traces, place) = outcome%trace(:, :, lane)
+      if (size(outcome%field, 1) > 0) result%field(:, :, place) = outcome%field(:, :, lane)
       if (allocated(facts%note)) result%message(place)%s = facts%note
       lowest = outcome%lowest_pressure(lane)
       if (lowest < huge(lowest)) then
@@ -166,7 +170,8 @@ contains
       if (outcome%status(lane) /= status_ok) result%message(place)%s = outcome%message(lane)%s
    end subroutine note_outcome
 
-   subroutine prepare(result, first, n, times)
+   subroutine prepare(deck, result, first, n, times)
+      type(deck_type), intent(in) :: deck
       type(block_result), intent(inout) :: result
       integer(i8), intent(in) :: first
       integer, intent(in) :: n, times
@@ -177,7 +182,8 @@ contains
       result%first = first
       allocate(result%measure(n_measures, n), source=nan)
       allocate(result%fact(n_facts, n), source=nan)
-      allocate(result%trace(times, n_traces, n), source=nan)
+      allocate(result%trace(times, trace_count(deck), n), source=nan)
+      allocate(result%field(field_nodes(deck), size(deck%field_times()), n), source=nan)
       allocate(result%status(n), source=status_ok)
       allocate(result%warnings(n), source=0)
       allocate(result%message(n))
@@ -201,13 +207,29 @@ contains
       time = [(min(start + real(k, wp)*dt, finish), k = 0, n)]
    end function trace_times
 
+   !> Values in a trace sample: those of the film models only where one runs.
+   pure integer function trace_count(deck) result(count)
+      type(deck_type), intent(in) :: deck
+
+      count = merge(n_traces, n_lumped_traces, any(deck%uses_model([model_film, model_film_table])))
+   end function trace_count
+
+   !> Nodes of the stored film pressure fields; 0 where none are asked for.
+   pure integer function field_nodes(deck) result(nodes)
+      type(deck_type), intent(in) :: deck
+
+      nodes = 0
+      if (size(deck%field_times()) > 0) nodes = mesh_nodes(nint(deck%value(key_film_mesh)))
+   end function field_nodes
+
    !> Cases in a block: run.block_size, fewer where their traces would take too much memory.
    integer(i8) function cases_per_block(deck) result(n)
       type(deck_type), intent(in) :: deck
       integer(i8) :: bytes
 
       n = nint(deck%value(key_run_block_size), i8)
-      bytes = 8*int(n_traces, i8)*size(trace_times(deck))
+      bytes = 8*(int(trace_count(deck), i8)*size(trace_times(deck)) &
+         & + int(field_nodes(deck), i8)*size(deck%field_times()))
       if (bytes > 0) n = max(1_i8, min(n, most_trace_bytes/bytes))
    end function cases_per_block
 

@@ -7,7 +7,7 @@ module rv_cases
    use rv_keys, only : keys, n_keys, n_models, full_name, value_text, choice_name, text_key, &
       & choice_key, key_run_title, key_run_model, key_run_t_end_ms, key_run_traces, key_run_trace_dt_ms, &
       & key_fluid_density_kg_m3, key_fluid_viscosity_pa_s, key_hydro_load, key_pressure_kind, key_pressure_file, &
-      & model_squeeze, model_film, model_film_table
+      & model_squeeze, model_film, model_film_table, key_film_fields_ms
    use rv_trace_file, only : trace_data
    implicit none
    private
@@ -42,6 +42,7 @@ module rv_cases
       type(text_type), allocatable :: trace_file(:)   !! the same as names that open; place = value(key_pressure_file)
       type(trace_data), allocatable :: trace(:)       !! what they hold
       type(axis_type), allocatable :: axis(:)         !! the last one runs fastest
+      type(axis_type) :: fields                       !! film.fields_ms [s]; values unallocated if not given
       logical :: has_design = .false.
       character(len=:), allocatable :: design_name    !! file name as the deck gives it
       character(len=:), allocatable :: design_note    !! rows and checksum of the design file
@@ -50,6 +51,7 @@ module rv_cases
    contains
       procedure :: case_count
       procedure :: case_values
+      procedure :: field_times
       procedure :: time_span
       procedure :: swept_keys
       procedure :: uses_model
@@ -97,6 +99,16 @@ contains
       if (file < 1 .or. file > size(self%trace)) return
       if (size(self%trace(file)%time) > 0) value(key_run_t_end_ms) = self%trace(file)%time(size(self%trace(file)%time))
    end subroutine case_values
+
+   !> Times of the film pressure fields [s]; empty where none are asked for or no model has any.
+   pure function field_times(self) result(time)
+      class(deck_type), intent(in) :: self
+      real(wp), allocatable :: time(:)
+
+      time = [real(wp) ::]
+      if (.not. any(self%uses_model([model_film, model_film_table]))) return
+      if (allocated(self%fields%value)) time = self%fields%value
+   end function field_times
 
    !> Earliest start and latest end of all cases [s].
    pure subroutine time_span(self, start, finish)
@@ -234,6 +246,8 @@ contains
          do i = 1, size(self%axis)
             if (self%axis(i)%key == key) text = value_list(self, self%axis(i))
          end do
+      case (key_film_fields_ms)
+         if (allocated(self%fields%value)) text = value_list(self, self%fields)
       case (key_pressure_file)
          i = nint(self%value(key))
          if (i > 0) text = quoted(self%trace_name(i)%s)

@@ -4,10 +4,11 @@ module rv_columns
    use rv_measures, only : n_measures
    implicit none
    private
-   public :: column_type, measure_columns, fact_columns, trace_columns, n_facts, n_traces
+   public :: column_type, measure_columns, fact_columns, trace_columns, n_facts, n_traces, n_lumped_traces
 
    integer, parameter :: n_facts = 7   !! numbers of the model behind a case
-   integer, parameter :: n_traces = 10 !! values in a trace sample
+   integer, parameter :: n_traces = 10  !! values in a trace sample, those of the film models last
+   integer, parameter :: n_lumped_traces = 5
 
    !> One column. Written value = value in SI times to_unit.
    type :: column_type

@@ -5,7 +5,9 @@ module rv_deck_check
    use rv_error, only : error_type
    use rv_text, only : to_text
    use rv_deck_draft, only : draft_type
-   use rv_keys, only : keys, n_keys, full_name, value_text, choice_name, kind_square, kind_trace, &
+   use rv_hydrodynamic_load, only : load_published
+   use rv_keys, only : keys, n_keys, full_name, value_text, choice_name, kind_square, kind_trace, model_film, &
+      & model_film_table, key_hydro_load, key_reed_a_mm, key_reed_b_mm, key_film_fields_ms, &
       & key_run_model, key_run_t_end_ms, key_run_traces, key_run_trace_dt_ms, key_reed_hole_diameter_mm, &
       & key_reed_width_mm, key_fluid_density_kg_m3, key_fluid_viscosity_pa_s, key_pressure_kind, &
       & key_pressure_period_ms, key_pressure_transition_ms, key_pressure_file, key_pressure_event_ms
@@ -22,7 +24,7 @@ module rv_deck_check
 
    !> Rules that tie values of one case together, and the keys each looks at.
    integer, parameter :: hole_fits = 1, ramp_fits = 2, event_in_trace = 3, end_in_trace = 4, &
-      & few_periods = 5, event_not_negative = 6, event_before_end = 7, n_rules = 7
+      & few_periods = 5, event_not_negative = 6, event_before_end = 7, tip_is_round = 8, film_load = 9, n_rules = 9
    integer, parameter :: rule_keys(5, n_rules) = reshape([ &
       & key_reed_hole_diameter_mm, key_reed_width_mm, 0, 0, 0, &
       & key_pressure_transition_ms, key_pressure_period_ms, key_pressure_kind, 0, 0, &
@@ -31,7 +33,9 @@ module rv_deck_check
       & key_run_t_end_ms, key_pressure_period_ms, key_pressure_kind, 0, 0, &
       & key_pressure_event_ms, key_pressure_kind, 0, 0, 0, &
       & key_run_t_end_ms, key_pressure_event_ms, key_pressure_period_ms, key_pressure_transition_ms, &
-      & key_pressure_file], [5, n_rules])
+      & key_pressure_file, &
+      & key_reed_b_mm, key_reed_width_mm, key_reed_hole_diameter_mm, key_run_model, 0, &
+      & key_hydro_load, key_run_model, 0, 0, 0], [5, n_rules])
 
 contains
 
@@ -48,6 +52,7 @@ contains
          call check_rule(draft, rule)
       end do
       call check_samples(draft)
+      call check_fields(draft)
    end subroutine check_deck
 
    !> The stored histories of all cases share one time axis; it must not be endless.
@@ -63,6 +68,19 @@ contains
          & draft%deck%value)//" stores "//to_text(samples, 3)//" samples from "//range_in_ms(start, finish) &
          & //"; at most "//to_text(nint(most_samples))//" can be stored")
    end subroutine check_samples
+
+   !> The stored pressure fields of all cases share one mesh.
+   subroutine check_fields(draft)
+      type(draft_type), intent(inout) :: draft
+      integer, parameter :: planform(4) = [key_reed_a_mm, key_reed_b_mm, key_reed_hole_diameter_mm, key_reed_width_mm]
+      integer :: i
+
+      if (draft%is_bad(key_film_fields_ms) .or. size(draft%deck%field_times()) == 0) return
+      do i = 1, size(planform)
+         if (varies(draft, planform(i))) call tell_at(draft, key_film_fields_ms, "film.fields_ms needs one planform;" &
+            & //" store the fields of a sweep over "//full_name(planform(i))//" in runs of their own")
+      end do
+   end subroutine check_fields
 
    !> A trace needs its file, and the event that nothing else tells.
    subroutine check_files(draft)
@@ -149,9 +167,10 @@ contains
       integer, intent(in) :: rule
       real(wp), intent(in) :: value(n_keys)
       character(len=:), allocatable :: text
-      real(wp) :: first, last, event
-      logical :: is_square, is_broken
+      real(wp) :: first, last, event, overhang
+      logical :: is_square, is_film, is_broken
 
+      is_film = any(nint(value(key_run_model)) == [model_film, model_film_table])
       is_square = nint(value(key_pressure_kind)) == kind_square
       call time_range(deck, value, first, last)
       event = value(key_pressure_event_ms)
@@ -183,6 +202,15 @@ contains
          case (event_not_negative)
             if (is_square .and. event < 0.0_wp) text = setting(key_pressure_event_ms, value) &
                & //": must be >= 0 with a square wave, which starts at 0"
+         case (tip_is_round)
+            overhang = 0.5_wp*(value(key_reed_width_mm) - value(key_reed_hole_diameter_mm))
+            is_broken = abs(value(key_reed_b_mm) - overhang) > 1.0e-6_wp*value(key_reed_width_mm) .or. .not. overhang > 0.0_wp
+            if (is_film .and. is_broken) text = setting(key_reed_b_mm, value)//": the film models need a tip concentric with" &
+               & //" the hole, b = (width - hole diameter)/2 = "//to_text(1.0e3_wp*overhang, 6)//" mm > 0"
+         case (film_load)
+            is_broken = nint(value(key_hydro_load)) == load_published
+            if (is_film .and. is_broken) text = setting(key_hydro_load, value)//" is a reading of the lumped models;" &
+               & //" the film models take 'maali', 'sader' or 'none'"
          case (event_before_end)
             if (event >= finish) text = setting(key_run_t_end_ms, value)//" ends the run before closing starts at " &
                & //to_text(1.0e3_wp*event, 6)//" ms; no closing is measured"

@@ -7,7 +7,8 @@ module rv_deck_settings
    use rv_deck_draft, only : draft_type, name_trace
    use rv_keys, only : keys, n_keys, full_name, default_value, text_key, real_key, key_run_title, key_run_model, &
       & key_run_start, key_run_t_end_ms, key_pressure_kind, key_pressure_file, kind_square, start_by_kind, start_rest, &
-      & start_equilibrium, key_hydro_load, load_by_model, model_traditional, model_squeeze, model_film, model_film_table
+      & start_equilibrium, key_hydro_load, key_film_fields_ms, load_by_model, model_traditional, &
+      & model_squeeze, model_film, model_film_table
    use rv_cases, only : axis_type, deck_type
    use rv_hydrodynamic_load, only : load_published, load_maali
    implicit none
@@ -80,6 +81,11 @@ contains
       end do
       if (draft%is_bad(key)) return
       if (key == key_run_model) call check_models(draft, e, axis%value)
+      if (key == key_film_fields_ms) then
+         call check_rising(draft, e, axis%value)
+         draft%deck%fields = axis
+         return
+      end if
       select case (keys(key)%kind)
       case (text_key)
          call take_text(draft, e, key)
@@ -121,6 +127,20 @@ contains
          call draft%tell(draft%value_word(e, i), "run.model names "//draft%shown(draft%value_word(e, i))//" twice")
       end do
    end subroutine check_models
+
+   subroutine check_rising(draft, e, time)
+      type(draft_type), intent(inout) :: draft
+      integer, intent(in) :: e
+      real(wp), intent(in) :: time(:)
+      integer :: i
+
+      do i = 2, size(time)
+         if (time(i) > time(i - 1)) cycle
+         draft%is_bad(key_film_fields_ms) = .true.
+         call draft%tell(draft%value_word(e, i), "film.fields_ms: the times must rise, "//draft%shown(draft%value_word(e, i)) &
+            & //" does not")
+      end do
+   end subroutine check_rising
 
    subroutine take_text(draft, e, key)
       type(draft_type), intent(inout) :: draft

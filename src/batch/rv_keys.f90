@@ -22,7 +22,7 @@ module rv_keys
       & key_reed_action_area_mm2
    public :: key_fluid_density_kg_m3, key_fluid_viscosity_pa_s, key_hydro_load
    public :: key_film_gap_mm, key_film_k_s, key_film_acts, key_film_modes, key_film_mesh, key_film_edge_elongation, &
-      & key_film_vapour_pressure_kpa
+      & key_film_vapour_pressure_kpa, key_film_fields_ms
    public :: key_pressure_kind, key_pressure_inlet_kpa, key_pressure_outlet_kpa, key_pressure_period_ms, &
       & key_pressure_transition_ms, key_pressure_file, key_pressure_event_ms
    public :: key_solver_rtol, key_solver_max_steps, key_solver_width
@@ -41,7 +41,7 @@ module rv_keys
       enumerator :: key_fluid_density_kg_m3, key_fluid_viscosity_pa_s
       enumerator :: key_hydro_load
       enumerator :: key_film_gap_mm, key_film_k_s, key_film_acts, key_film_modes, key_film_mesh
-      enumerator :: key_film_edge_elongation, key_film_vapour_pressure_kpa
+      enumerator :: key_film_edge_elongation, key_film_vapour_pressure_kpa, key_film_fields_ms
       enumerator :: key_pressure_kind, key_pressure_inlet_kpa, key_pressure_outlet_kpa, key_pressure_period_ms
       enumerator :: key_pressure_transition_ms, key_pressure_file, key_pressure_event_ms
       enumerator :: key_solver_rtol, key_solver_max_steps, key_solver_width
@@ -131,7 +131,7 @@ module rv_keys
       & "A of Eq. (19), the area the pressures act on; default: the hole's, pi D^2/4", 0.01_wp, 1.0e4_wp, &
       & for_model=only_lumped)]
 
-   type(key_type), parameter :: medium_keys(10) = [ &
+   type(key_type), parameter :: medium_keys(11) = [ &
       & key_type("fluid", "density_kg_m3", real_key, "kg/m3", one, "875.0", 1.0e-3_wp, 1.0e5_wp, &
       & "density of the fluid", 0.01_wp, 2.0e4_wp), &
       & key_type("fluid", "viscosity_pa_s", real_key, "Pa s", one, "0.0484", 1.0e-7_wp, 1.0e4_wp, &
@@ -156,7 +156,10 @@ module rv_keys
       & "beta: by how many film thicknesses the edges of the film reach out; Stokes flow says 0.65", &
       & for_model=only_film), &
       & key_type("film", "vapour_pressure_kpa", real_key, "kPa", kilo, "-101.325", -1.0e5_wp, 1.0e5_wp, &
-      & "film pressure below which a case warns of cavitation, on the scale of inlet and outlet", for_model=only_film)]
+      & "film pressure below which a case warns of cavitation, on the scale of inlet and outlet", for_model=only_film), &
+      & key_type("film", "fields_ms", real_key, "ms", milli, "", -1.0e6_wp, 1.0e6_wp, &
+      & "times, rising, at which the film's pressure field is stored", list=.true., sweepable=.false., &
+      & for_model=only_film)]
 
    type(key_type), parameter :: pressure_keys(7) = [ &
       & key_type("pressure", "kind", choice_key, "", one, "square", none, none, &

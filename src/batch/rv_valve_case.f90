@@ -28,10 +28,14 @@ module rv_valve_case
    use rv_valve_lanes, only : valve_lanes
    implicit none
    private
-   public :: planform_cache, case_facts, new_case_lanes, film_of_case, new_history, settings_of, planform_key, n_planform
+   public :: planform_cache, case_facts, new_case_lanes, film_of_case, new_history, settings_of, planform_key, &
+      & n_planform, mesh_nodes
+   public :: elements_around, elements_across
 
    real(wp), parameter :: most_periods = 1.0e5_wp  !! periods in one run; each has four stops
    real(wp), parameter :: wide_gap = 0.15e-3_wp    !! Navier-Stokes over lubrication: 0.95 at this film thickness [m]
+   integer, parameter :: elements_around(3) = [6, 4, 2]  !! film mesh of film.mesh = 1: on arc, side and clamp
+   integer, parameter :: elements_across = 3
    integer, parameter :: acts_both = 2             !! film.acts = 'both'
    integer, parameter :: n_planform = 8            !! values in planform_key
 
@@ -206,7 +210,7 @@ contains
       if (nint(value(key_run_model)) == model_film) modes = nint(value(key_film_modes))
       call new_film_reed(cache%reed, value(key_reed_a_mm), value(key_reed_hole_diameter_mm), value(key_reed_b_mm), &
          & value(key_reed_width_mm), value(key_reed_poisson_ratio), modes, value(key_film_edge_elongation), error, &
-         & around=mesh*[6, 4, 2], across=mesh*3)
+         & around=mesh*elements_around, across=mesh*elements_across)
       if (allocated(error)) return
       if (nint(value(key_run_model)) == model_film_table) then
          allocate(cache%table)
@@ -229,6 +233,13 @@ contains
          & value(key_reed_width_mm), value(key_reed_poisson_ratio), value(key_film_edge_elongation), 0.0_wp]
       if (model == model_film_table .and. value(key_film_edge_elongation) > 0.0_wp) key(8) = value(key_film_gap_mm)
    end function planform_key
+
+   !> Nodes of the film mesh of a refinement.
+   pure integer function mesh_nodes(mesh)
+      integer, intent(in) :: mesh   !! film.mesh
+
+      mesh_nodes = (2*mesh*sum(elements_around) + 1)*(2*mesh*elements_across + 1)
+   end function mesh_nodes
 
    pure function fluid_of(value) result(fluid)
       real(wp), intent(in) :: value(n_keys)
