@@ -1,7 +1,8 @@
 # `make demo` and `make test` set up everything they need; tools/bootstrap says what that is.
 venv := build/venv/bin
 reedvalve := build/release/drivers/reedvalve/reedvalve
-demo_decks := table_3_4 gap_study response table_5
+decks := table_3_4 gap_study response table_5
+demo := results/demo
 
 .PHONY: help demo test build lint format bootstrap checks clean
 help:
@@ -19,15 +20,18 @@ checks:
 
 build: build-release
 build-%: bootstrap
-	@cmake --preset $* --log-level=NOTICE
-	@cmake --build --preset $*
+	@echo "== $* build"
+	@cmake --preset $* >/dev/null
+	@cmake --build --preset $* $(if $(target),--target $(target))
 
-demo: build
-	@for deck in $(demo_decks); do \
-	   $(reedvalve) run inputs/$$deck.nml -o results/demo/$$deck --force || exit; done
-	@$(venv)/python -m reedpost compare $(demo_decks:%=results/demo/%)
-	@$(venv)/python -m reedpost plot $(demo_decks:%=results/demo/%)
-	@$(venv)/python -m reedpost report $(demo_decks:%=results/demo/%)
+demo:
+	@$(MAKE) --no-print-directory build target=reedvalve_cli
+	@mkdir -p $(demo)
+	@for deck in $(decks); do $(reedvalve) run inputs/$$deck.nml -o $(demo)/$$deck --force || exit; done
+	@$(venv)/python -m reedpost compare $(filter-out %/response,$(decks:%=$(demo)/%))
+	@$(venv)/python -m reedpost plot $(decks:%=$(demo)/%)
+	@$(venv)/python -m reedpost report $(decks:%=$(demo)/%) -o $(demo)/report.html >/dev/null
+	@echo "The report: $(abspath $(demo)/report.html)"
 
 test: build
 	ctest --preset release

@@ -106,6 +106,7 @@ contains
       logical :: has_value
 
       option = argument(place)
+      if (index(option, "-o") == 1 .and. len(option) > 2 .and. index(option, "=") == 0) option = "-o="//option(3:)
       has_value = index(option, "=") > 0
       value = option(index(option//"=", "=") + 1:)
       if (has_value) option = option(:index(option, "=") - 1)

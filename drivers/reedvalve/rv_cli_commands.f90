@@ -14,7 +14,7 @@ module rv_cli_commands
    use rv_keys, only : default_value, full_name, key_run_model, keys, real_key, value_text
    use rv_kinds, only : wp, i8
    use rv_manifest, only : manifest_type
-   use rv_posix, only : catch_signals, seconds
+   use rv_posix, only : catch_signals, is_terminal, seconds
    use rv_results_netcdf, only : expected_size
    use rv_run, only : merge_folder, run_deck, run_options, run_outcome
    use rv_text, only : to_text
@@ -26,8 +26,8 @@ module rv_cli_commands
    integer, parameter :: samples = 4                !! spread over the deck
    real(wp), parameter :: sample_seconds = 2.0_wp   !! no further sample after that [s]
    real(wp), parameter :: long_run = 10.0_wp        !! worth a thought about threads [s]
-   character(len=*), parameter :: notice = new_line("a")//"reedvalve: stopping when the blocks under way are done" &
-      & //" (once more stops at once, and they are lost)"//new_line("a")
+   character(len=*), parameter :: notice = "reedvalve: stopping when the blocks under way are done" &
+      & //" (once more stops at once, and they are lost)"
 
 contains
 
@@ -152,8 +152,10 @@ contains
 
       if (quiet) then
          call catch_signals("", ignored)
+      else if (is_terminal(2)) then
+         call catch_signals(new_line("a")//notice//new_line("a"), ignored)   ! behind the bar
       else
-         call catch_signals(notice, ignored)
+         call catch_signals(notice//new_line("a"), ignored)
       end if
    end subroutine watch_signals
 

@@ -24,8 +24,8 @@ contains
 
       if (outcome%unlocked) call complain("warning: the file system of '"//folder &
          & //"' has no locks; let no other run work in there at the same time")
-      if (outcome%damaged_blocks > 0) call complain("warning: "//to_text(outcome%damaged_blocks) &
-         & //" part files were damaged; their blocks were run again")
+      if (outcome%damaged_blocks > 0) call complain("warning: "//counted(int(outcome%damaged_blocks, i8), "part file") &
+         & //" in '"//folder//"' could not be used (damaged, or of another run); the blocks were run again")
       if (.not. outcome%logged) call complain("warning: could not write '"//folder//"/run.log'")
       if (allocated(error)) then
          call complain(error%message)

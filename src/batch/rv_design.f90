@@ -5,7 +5,8 @@ module rv_design
    use rv_error, only : error_type
    use rv_text, only : to_text
    use rv_faults, only : clip
-   use rv_text_file, only : read_text_file, check_encoding, checksum
+   use rv_text_file, only : read_text_file, check_encoding
+   use rv_checksum, only : crc32_text, hex_text
    use rv_csv, only : csv_reader, new_csv_reader
    use rv_deck_reader, only : word_type
    use rv_deck_draft, only : draft_type, name_trace
@@ -68,7 +69,7 @@ contains
       if (draft%faults%errors() > before) return
       call read_rows(draft, reader, path)
       draft%deck%has_design = draft%faults%errors() == before
-      draft%deck%design_note = to_text(size(draft%deck%design, 2))//" rows, checksum "//to_text(checksum(text))
+      draft%deck%design_note = to_text(size(draft%deck%design, 2))//" rows, CRC-32 "//hex_text(crc32_text(text))
    end subroutine read_design_file
 
    !> Find the keys the columns are of.

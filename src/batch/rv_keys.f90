@@ -227,7 +227,7 @@ contains
    end function full_name
 
    !> The value a key has when the deck does not give it.
-   real(wp) function default_value(key) result(value)
+   pure real(wp) function default_value(key) result(value)
       integer, intent(in) :: key
       character(len=:), allocatable :: text
 

@@ -125,7 +125,8 @@ contains
       call remove_file(folder%file(netcdf_name//new_suffix), ignored)
       if (.not. allocated(error)) return
       ! HDF5 does not say why a write failed
-      if (room >= 0 .and. room < 65536) error%message = error%message//"; the disk has "//to_text(room)//" bytes left"
+      if (room < 0 .or. room > 65536) return
+      error%message = error%message//"; the disk is full, "//to_text(room)//" bytes are left"
    end subroutine abandon
 
    !> Give both results their names once they are on the disk, then remove the parts.

@@ -139,7 +139,7 @@ contains
       self%is_open = .false.
       flag = nf90_close(self%file)
       if (.not. present(error)) return
-      call self%note(flag, "the last of it")
+      call self%note(flag, "its end")
       call self%give_up(error)
    end subroutine close_file
 
@@ -161,7 +161,7 @@ contains
 
       if (self%flag == nf90_noerr) return
       call fail(error, rv_io, "cannot write '"//self%path//"': "//trim(nf90_strerror(self%flag)) &
-         & //" (at "//self%at//")")
+         & //" (while writing "//self%at//")")
       call self%close()
    end subroutine give_up
 

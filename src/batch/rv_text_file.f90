@@ -1,4 +1,4 @@
-!> Text files as bytes: reading them whole, refusing what is no text, telling one from another.
+!> Text files as bytes: reading them whole, refusing what is no text.
 module rv_text_file
    use, intrinsic :: iso_fortran_env, only : int64
    use rv_error, only : error_type, fail, rv_bad_input, rv_io
@@ -6,7 +6,7 @@ module rv_text_file
    use rv_text, only : to_text
    implicit none
    private
-   public :: read_text_file, check_encoding, checksum, folder_of, byte_order_mark
+   public :: read_text_file, check_encoding, folder_of, byte_order_mark
 
    character(len=*), parameter :: byte_order_mark = char(239)//char(187)//char(191)   !! of UTF-8
 
@@ -124,20 +124,6 @@ contains
          trouble = "byte "//hex//" (hexadecimal) is not UTF-8; save the file as UTF-8"
       end if
    end function trouble_with
-
-   !> A number that tells two texts apart: polynomial in 31 over the bytes, modulo the prime 2^31 - 1.
-   pure integer function checksum(text)
-      character(len=*), intent(in) :: text
-      integer(int64), parameter :: prime = 2147483647_int64
-      integer(int64) :: sum
-      integer :: i
-
-      sum = 1
-      do i = 1, len(text)
-         sum = mod(sum*31_int64 + iachar(text(i:i)), prime)
-      end do
-      checksum = int(sum)
-   end function checksum
 
    !> The folder part of a path with its / at the end, or nothing.
    pure function folder_of(path) result(folder)

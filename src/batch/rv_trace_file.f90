@@ -9,7 +9,8 @@ module rv_trace_file
    use rv_text, only : lower, to_text
    use rv_number, only : parse_real
    use rv_faults, only : fault_list, clip
-   use rv_text_file, only : read_text_file, check_encoding, checksum
+   use rv_text_file, only : read_text_file, check_encoding
+   use rv_checksum, only : crc32_text, hex_text
    use rv_csv, only : csv_reader, new_csv_reader
    implicit none
    private
@@ -68,7 +69,7 @@ contains
       call read_rows(reader, path, map, trace, line, faults)
       if (faults%errors() > before) return
       call check_gaps(path, trace%time, line, faults)
-      trace%note = to_text(size(trace%time))//" rows, checksum "//to_text(checksum(text))
+      trace%note = to_text(size(trace%time))//" rows, CRC-32 "//hex_text(crc32_text(text))
    end subroutine read_pressure_trace
 
    !> Find the columns.
@@ -236,7 +237,7 @@ contains
       real(wp), allocatable :: step(:)
       integer :: i
 
-      step = time(2:) - time(:size(time) - 1)
+      allocate(step, source=time(2:) - time(:size(time) - 1))
       if (size(step) < 3) return
       i = maxloc(step, dim=1)
       if (step(i) <= widest_gap*median(step)) return
@@ -251,7 +252,7 @@ contains
       real(wp) :: pivot
       integer :: place
 
-      rest = x
+      allocate(rest, source=x)
       place = (size(x) + 1)/2
       do
          pivot = rest((size(rest) + 1)/2)

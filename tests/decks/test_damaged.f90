@@ -17,38 +17,43 @@ program test_damaged
       & //"&sweep key = 'film.gap_mm', values = 0.1, 2*0.2, 0.3 /~" &
       & //"&sweep key = 'pressure.inlet_kpa' from = 5, to = 40, count = 3, scale = 'log' /~"
    type(suite_type) :: suite
-   type(deck_type) :: deck, again
-   type(fault_list) :: faults
-   type(error_type), allocatable :: error
-   character(len=:), allocatable :: text
    integer(i8) :: state
-   integer :: i, taken, changed
 
    state = 20080101_i8
-   taken = 0
-   changed = 0
-   call read_trial(healthy, deck, faults, error)
-   call suite%equal("the healthy deck has no faults", faults%errors(), 0)
-   do i = 1, trials
-      text = damaged(lines(healthy))
-      call read_trial(text, deck, faults, error)
-      if (faults%errors() > 0) cycle
-      taken = taken + 1
-      call read_trial(deck%effective_text(), again, faults, error)
-      if (faults%errors() > 0) then
-         changed = changed + 1
-      else if (again%effective_text() /= deck%effective_text()) then
-         changed = changed + 1
-      end if
-      if (changed > 0) exit
-   end do
-   call suite%true("some are taken", taken > trials/50)
-   call suite%true("some are refused", taken < trials/2)
-   call suite%equal("decks that change when written and read", changed, 0)
-   if (changed > 0) call suite%text("the deck that changes", text, "")
+   call damage_decks()
    call suite%finish()
 
 contains
+
+   subroutine damage_decks()
+      type(deck_type) :: deck, again
+      type(fault_list) :: faults
+      type(error_type), allocatable :: error
+      character(len=:), allocatable :: text
+      integer :: i, taken, changed
+
+      call read_trial(healthy, deck, faults, error)
+      call suite%equal("the healthy deck has no faults", faults%errors(), 0)
+      taken = 0
+      changed = 0
+      do i = 1, trials
+         text = damaged(lines(healthy))
+         call read_trial(text, deck, faults, error)
+         if (faults%errors() > 0) cycle
+         taken = taken + 1
+         call read_trial(deck%effective_text(), again, faults, error)
+         if (faults%errors() > 0) then
+            changed = changed + 1
+         else if (again%effective_text() /= deck%effective_text()) then
+            changed = changed + 1
+         end if
+         if (changed > 0) exit
+      end do
+      call suite%true("some are taken", taken > trials/50)
+      call suite%true("some are refused", taken < trials/2)
+      call suite%equal("decks that change when written and read", changed, 0)
+      if (changed > 0) call suite%text("the deck that changes", text, "")
+   end subroutine damage_decks
 
    !> One to four bytes changed, inserted, taken out, or the end cut off.
    function damaged(healthy) result(text)

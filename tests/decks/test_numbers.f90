@@ -1,11 +1,11 @@
-!> Words as numbers, lists of remarks, long texts, checksums.
+!> Words as numbers, lists of remarks, long texts.
 program test_numbers
    use rv_kinds, only : wp, i8
    use rv_number, only : parse_real, parse_integer, parse_logical, tidy
    use rv_faults, only : fault_list, clip
    use rv_text, only : text_type
    use rv_text_builder, only : text_builder, append_text
-   use rv_text_file, only : checksum, folder_of
+   use rv_text_file, only : folder_of
    use rv_suggest, only : closest
    use check, only : suite_type
    implicit none
@@ -124,8 +124,6 @@ contains
       call append_text(list, "thickness_mm")
       call suite%text("closest", closest("thicknes_mm", list), "thickness_mm")
       call suite%text("nothing close", closest("q", list), "")
-      call suite%true("checksum tells order", checksum("ab") /= checksum("ba"))
-      call suite%true("checksum tells length", checksum("") /= checksum(achar(0)))
       call suite%text("folder", folder_of("a/b/c.nml"), "a/b/")
       call suite%text("no folder", folder_of("c.nml"), "")
    end subroutine texts

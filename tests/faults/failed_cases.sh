@@ -1,0 +1,25 @@
+# A case that fails is recorded with its reason, and the sweep goes on: exit 1, results written, failures listed.
+. "$(dirname "$0")/common.sh"
+cat >deck.nml <<'END'
+&run model = 'traditional', 'squeeze', block_size = 5 /
+&solver max_steps = 150 /
+&sweep key = 'pressure.inlet_kpa', from = 5.0, to = 40.0, count = 8 /
+&sweep key = 'pressure.period_ms', values = 40.0, 60.0 /
+END
+expect 1 '32 cases, [1-9][0-9]* failed \([0-9]+ too_many_steps\)' run deck.nml
+holds "failures are listed" grep -Eq 'reedvalve: case [0-9]+ \(too_many_steps\): .*t = ' err.txt
+rows=$(wc -l <deck/summary.csv)
+if [ "$rows" = 33 ]; then pass "every case has its row"; else wrong "$rows rows instead of 33"; fi
+failed_rows=$(grep -c ',too_many_steps,' deck/summary.csv)
+told=$(sed -n 's/.*cases, \([0-9]*\) failed.*/\1/p' out.txt)
+if [ "$failed_rows" = "$told" ]; then pass "$told failures told and written"; else wrong "$told told, $failed_rows written"; fi
+holds "others went on" grep -q ',ok,' deck/summary.csv
+expect 1 'too_many_steps' run deck.nml --force --quiet
+if [ -s out.txt ]; then wrong "--quiet prints on standard output"; else pass "--quiet prints nothing but errors"; fi
+expect 1 'finished before' run deck.nml --resume
+
+# a warning is not a failure
+printf "&hydro load = 'maali' /\n&reed thickness_mm = 0.3 /\n" >warned.nml
+expect 0 '1 of 1 cases are marked reynolds_range' run warned.nml
+holds "the summary has it" grep -q 'ok,.*Re = ' warned/summary.csv
+finish

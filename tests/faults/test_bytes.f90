@@ -1,0 +1,165 @@
+!> Checksums, files as bytes, records, locks: what parts and results lean on.
+program test_bytes
+   use, intrinsic :: iso_c_binding, only : c_int, c_loc
+   use, intrinsic :: iso_fortran_env, only : int32
+   use check, only : suite_type
+   use rv_checksum, only : crc32_of, crc32_text, hex_text
+   use rv_error, only : error_type
+   use rv_file, only : close_descriptor, file_type, read_whole_file, write_whole_file
+   use rv_kinds, only : wp, i8
+   use rv_posix, only : lock_file, lock_held, lock_ours, number_text, path_folder, path_kind, path_none, remove_file, &
+      & seconds
+   use rv_records, only : add_record, next_record, record_count, record_value
+   use rv_text, only : to_text
+   implicit none
+   type(suite_type) :: suite
+
+   call test_checksum()
+   call test_whole_files()
+   call test_pieces()
+   call test_records()
+   call test_locks()
+   call test_numbers()
+   call suite%finish()
+
+contains
+
+   !> The check value of CRC-32 and others from Python's zlib.
+   subroutine test_checksum()
+      character(len=70), target :: text
+      integer(int32) :: split
+      integer :: i
+
+      call suite%text("CRC-32 of 123456789", hex_text(crc32_text("123456789")), "CBF43926")
+      call suite%text("CRC-32 of nothing", hex_text(crc32_text("")), "00000000")
+      text = "The quick brown fox jumps over the lazy dog"
+      call suite%text("CRC-32 of the fox", hex_text(crc32_text(trim(text))), "414FA339")
+      do i = 0, 24
+         split = crc32_of(c_loc(text), int(i, i8))
+         split = crc32_of(c_loc(text(i + 1:i + 1)), 70_i8 - i, split)
+         call suite%true("the same in two pieces, cut after "//to_text(i), split == crc32_text(text))
+      end do
+   end subroutine test_checksum
+
+   subroutine test_whole_files()
+      type(error_type), allocatable :: error
+      character(len=:), allocatable :: text
+      logical :: found
+      integer :: kind
+      integer(i8) :: size
+
+      call write_whole_file("whole.txt", "two"//new_line("a")//"lines"//achar(0), error)
+      call suite%no_error("write a file", error)
+      call read_whole_file("whole.txt", text, found, error)
+      call suite%true("read it back", found .and. text == "two"//new_line("a")//"lines"//achar(0))
+      call path_kind("whole.txt.new", kind, error)
+      call suite%equal("no temporary file is left", kind, path_none)
+      call path_kind("whole.txt", kind, error, size)
+      call suite%equal("its size", int(size), 10)
+      call remove_file("whole.txt", error)
+      call suite%no_error("remove it", error)
+      call remove_file("whole.txt", error)
+      call suite%fails("remove it again", error, "cannot remove 'whole.txt': No such file")
+      call read_whole_file("whole.txt", text, found, error)
+      call suite%true("a file that is not there", .not. (found .or. allocated(error)))
+      call read_whole_file(".", text, found, error)
+      call suite%fails("read a folder", error, "is not a file")
+      call path_kind("/", kind, error)
+      call suite%equal("the root is a folder", kind, path_folder)
+      call write_whole_file("no/such/folder.txt", "x", error)
+      call suite%fails("write where there is no folder", error, "cannot write 'no/such/folder.txt.new': No such file")
+   end subroutine test_whole_files
+
+   !> Text in pieces larger than the buffer, and a device without room.
+   subroutine test_pieces()
+      type(file_type) :: file
+      type(error_type), allocatable :: error
+      character(len=:), allocatable :: text, piece
+      logical :: found
+      integer :: i
+
+      piece = repeat("0123456789", 3001)
+      call file%create("pieces.txt", error)
+      do i = 1, 20
+         call file%put_text(piece, error)
+      end do
+      call file%close(error)
+      call suite%no_error("close", error)
+      call read_whole_file("pieces.txt", text, found, error)
+      call suite%true("all pieces arrived", text == repeat(piece, 20))
+      call remove_file("pieces.txt", error)
+
+      call file%append("/dev/full", error)
+      call suite%no_error("open a full device", error)
+      call file%put_text(piece, error)
+      call suite%no_error("text waits in the buffer", error)
+      call file%sync(error)
+      call suite%fails("a full device", error, "cannot write '/dev/full': No space left on device")
+      call file%close()
+   end subroutine test_pieces
+
+   subroutine test_records()
+      character(len=:), allocatable :: text, name, value
+      integer :: at, cut
+
+      text = ""
+      call add_record(text, "one", "")
+      call add_record(text, "two", "three 5"//new_line("a")//"hello"//new_line("a"))
+      call add_record(text, "two", " blanks ")
+      at = 1
+      call next_record(text, at, name, value)
+      call suite%text("an empty value", name//"="//value, "one=")
+      call next_record(text, at, name, value)
+      call suite%true("a value like a record", value == "three 5"//new_line("a")//"hello"//new_line("a"))
+      call next_record(text, at, name, value)
+      call suite%text("blanks stay", value, " blanks ")
+      call next_record(text, at, name, value)
+      call suite%text("the end", name, "")
+      call suite%equal("count", record_count(text, "two"), 2)
+      call suite%text("the first of a name", record_value(text, "one"), "")
+      do cut = 0, len(text) - 2
+         if (record_count(text(:cut), "two") > 1) exit
+      end do
+      call suite%equal("a text cut short never has all records", cut, len(text) - 1)
+   end subroutine test_records
+
+   subroutine test_locks()
+      type(error_type), allocatable :: error
+      character(len=:), allocatable :: text
+      integer(c_int) :: first, second
+      integer :: state
+      logical :: found
+
+      call lock_file("test.lock", "the first", first, state, error)
+      call suite%equal("take a lock", state, lock_ours)
+      call lock_file("test.lock", "the second", second, state, error)
+      call suite%equal("it is taken", state, lock_held)
+      call read_whole_file("test.lock", text, found, error)
+      call suite%text("the holder's name", text, "the first")
+      call close_descriptor(first)
+      call lock_file("test.lock", "short", second, state, error)
+      call suite%equal("take it when it is free", state, lock_ours)
+      call read_whole_file("test.lock", text, found, error)
+      call suite%text("the new holder's name", text, "short")
+      call remove_file("test.lock", error)
+      call lock_file("test.lock", "a third", first, state, error)
+      call suite%equal("a removed file is a new lock", state, lock_ours)
+      call close_descriptor(first)
+      call close_descriptor(second)
+      call remove_file("test.lock", error)
+      call lock_file("no/such/lock", "x", first, state, error)
+      call suite%fails("lock where there is no folder", error, "cannot lock 'no/such/lock'")
+   end subroutine test_locks
+
+   subroutine test_numbers()
+      real(wp) :: start, later
+
+      call suite%text("12 digits", number_text(1.0_wp/3.0_wp, 12), "0.333333333333")
+      call suite%text("no zeros at the end", number_text(0.05_wp, 15), "0.05")
+      call suite%text("an exponent", number_text(-1.5e-7_wp, 12), "-1.5e-07")
+      start = seconds()
+      later = seconds()
+      call suite%true("the clock does not run backwards", later >= start)
+   end subroutine test_numbers
+
+end program test_bytes

@@ -1,0 +1,227 @@
+!> results.nc and summary.csv: every value in its place and unit, every variable described, missing means missing.
+program test_results
+   use, intrinsic :: ieee_arithmetic, only : ieee_is_nan, ieee_quiet_nan, ieee_value
+   use, intrinsic :: iso_fortran_env, only : int8
+   use check, only : suite_type
+   use netcdf, only : nf90_close, nf90_get_att, nf90_get_var, nf90_global, nf90_inq_varid, nf90_inquire, &
+      & nf90_inquire_attribute, nf90_inquire_variable, nf90_noerr, nf90_nowrite, nf90_open
+   use rv_block, only : n_facts, n_measures, n_traces
+   use rv_error, only : error_type
+   use rv_file, only : read_whole_file
+   use rv_kinds, only : wp, i8
+   use rv_manifest, only : input_type, kind_choice, kind_number, kind_text, manifest_type
+   use rv_parts, only : part_type
+   use rv_results_csv, only : csv_writer
+   use rv_results_netcdf, only : expected_size, netcdf_writer
+   use rv_results_origin, only : read_origin
+   use rv_text, only : to_text
+   implicit none
+   integer, parameter :: cases = 5, times = 3
+   type(suite_type) :: suite
+   type(manifest_type) :: manifest
+   type(part_type) :: part(2)   !! cases 1 to 3 and 4 to 5
+   real(wp) :: nan
+
+   nan = ieee_value(nan, ieee_quiet_nan)
+   call make_manifest()
+   call make_part(part(1), 1, 3)
+   call make_part(part(2), 4, 5)
+   call test_csv()
+   call test_netcdf()
+   call test_origin()
+   call test_no_place()
+   call suite%finish()
+
+contains
+
+   subroutine test_csv()
+      type(csv_writer) :: writer
+      type(error_type), allocatable :: error
+      character(len=:), allocatable :: text, expected
+      character(len=1), parameter :: nl = new_line("a")
+      logical :: found
+      integer :: i
+
+      call writer%create("test.csv", manifest, error)
+      call suite%no_error("create test.csv", error)
+      call writer%put(part(1), error)
+      call writer%put(part(2), error)
+      call writer%close(error)
+      call suite%no_error("close it", error)
+      call read_whole_file("test.csv", text, found, error)
+      expected = "case,model,film.gap_mm,pressure.file,steady_mm,rise_ms,opening_ms,overshoot_mm,fall_ms,closing_ms," &
+         & //"zero_ms,undershoot_mm,peak_squeeze_n,status,message"//nl &
+         & //'1,squeeze,0.1,"b, c.csv",1001,1002,,1004,1005,1006,1007,1008,1.009,ok,'//nl &
+         & //'2,traditional,0.2,a.csv,2001,2002,,2004,2005,2006,2007,2008,2.009,film_closed,"why? ""so"", he said"'//nl
+      call suite%text("its first rows", text(:min(len(text), len(expected))), expected)
+      call suite%equal("its rows", count([(text(i:i) == nl, i=1, len(text))]), cases + 1)
+   end subroutine test_csv
+
+   subroutine test_netcdf()
+      type(netcdf_writer) :: writer
+      type(error_type), allocatable :: error
+      integer :: file, variables, attributes, var, flag
+      character(len=200) :: name
+      real(wp) :: x(cases), trace(times, cases), fill
+      integer(int8) :: byte(cases)
+      character(len=200) :: message(cases)
+      character(len=8) :: word(cases)
+
+      call writer%create("test.nc", manifest, error)
+      call suite%no_error("create test.nc", error)
+      call writer%put(part(1), error)
+      call writer%put(part(2), error)
+      call writer%close(error)
+      call suite%no_error("close it", error)
+      call suite%equal("open it", nf90_open("test.nc", nf90_nowrite, file), nf90_noerr)
+      call suite%equal("look at it", nf90_inquire(file, nVariables=variables, nAttributes=attributes), nf90_noerr)
+      call suite%equal("variables", variables, 8 + n_measures + n_facts + n_traces)
+      do var = 1, variables
+         flag = nf90_inquire_variable(file, var, name=name)
+         if (flag == nf90_noerr) flag = nf90_inquire_attribute(file, var, "units")
+         if (flag == nf90_noerr) flag = nf90_inquire_attribute(file, var, "long_name")
+         if (flag /= nf90_noerr) exit
+      end do
+      call suite%equal("all have units and a long name, up to "//trim(name), flag, nf90_noerr)
+
+      call suite%equal("get fall_ms", nf90_get_var(file, number_of(file, "fall_ms"), x), nf90_noerr)
+      call suite%close("fall_ms of case 4", x(4), 4005.0_wp, 1.0e-15_wp, 0.0_wp)
+      call suite%equal("get opening_ms", nf90_get_var(file, number_of(file, "opening_ms"), x), nf90_noerr)
+      call suite%true("what did not happen is NaN", all(ieee_is_nan(x)))
+      var = number_of(file, "opening_ms")
+      call suite%equal("its fill value", nf90_get_att(file, var, "_FillValue", fill), nf90_noerr)
+      call suite%true("is NaN", ieee_is_nan(fill))
+      call suite%equal("get film.gap_mm", nf90_get_var(file, number_of(file, "film.gap_mm"), x), nf90_noerr)
+      call suite%close("the gap of case 5", x(5), 0.5_wp, 1.0e-15_wp, 0.0_wp)
+      call suite%equal("get model", nf90_get_var(file, number_of(file, "model"), byte), nf90_noerr)
+      call suite%true("models", all(byte == [2, 1, 2, 1, 2]))
+      call suite%equal("get status", nf90_get_var(file, number_of(file, "status"), byte), nf90_noerr)
+      call suite%true("status", all(byte == [0, 2, 0, 2, 0]))
+      call suite%equal("get message", nf90_get_var(file, number_of(file, "message"), message), nf90_noerr)
+      call suite%text("the message of case 4", message(4)(:index(message(4), achar(0)) - 1), 'why? "so", he said')
+      call suite%text("the message of case 5", message(5)(1:1), achar(0))
+      call suite%equal("get pressure.file", nf90_get_var(file, number_of(file, "pressure.file"), word), nf90_noerr)
+      call suite%text("the file of case 3", word(3), "b, c.csv")
+      call suite%text("the file of case 2", word(2), "a.csv"//repeat(achar(0), 3))
+      call suite%equal("get inlet_kpa", nf90_get_var(file, number_of(file, "inlet_kpa"), trace), nf90_noerr)
+      call suite%close("inlet of case 5 at the second time", trace(2, 5), 0.532_wp, 1.0e-14_wp, 0.0_wp)
+      call suite%equal("get time_ms", nf90_get_var(file, number_of(file, "time_ms"), x(:times)), nf90_noerr)
+      call suite%close("the last time", x(times), 0.04_wp, 1.0e-15_wp, 0.0_wp)
+      call suite%text("title", attribute(file, "title"), "A title")
+      call suite%text("deck", attribute(file, "deck"), manifest%deck)
+      call suite%text("effective values", attribute(file, "effective_values"), "")
+      call suite%true("libraries", index(attribute(file, "library_versions"), "SUNDIALS ") == 1)
+      call suite%equal("close it", nf90_close(file), nf90_noerr)
+   end subroutine test_netcdf
+
+   subroutine test_origin()
+      type(manifest_type) :: origin
+      type(error_type), allocatable :: error
+      integer(i8) :: n, failed
+
+      call read_origin("test.nc", origin, n, failed, error)
+      call suite%no_error("where test.nc comes from", error)
+      call suite%text("its deck", origin%deck_name//": "//origin%deck, manifest%deck_name//": "//manifest%deck)
+      call suite%equal("its cases", int(n), cases)
+      call suite%equal("its failures", int(failed), 2)
+      call read_origin("test.csv", origin, n, failed, error)
+      call suite%fails("where a CSV comes from", error, "cannot read 'test.csv'")
+      call suite%true("the size is foreseen", expected_size(manifest) > 0_i8)
+   end subroutine test_origin
+
+   subroutine test_no_place()
+      type(netcdf_writer) :: netcdf
+      type(csv_writer) :: csv
+      type(error_type), allocatable :: error
+
+      call netcdf%create("no/such/folder.nc", manifest, error)
+      call suite%fails("a NetCDF file in no folder", error, "cannot write 'no/such/folder.nc'")
+      call csv%create("no/such/folder.csv", manifest, error)
+      call suite%fails("a CSV file in no folder", error, "cannot write 'no/such/folder.csv': No such file")
+   end subroutine test_no_place
+
+   subroutine make_manifest()
+      integer :: i
+
+      manifest%code_version = "0.0.1"
+      manifest%deck_name = "deck"
+      manifest%deck = "&run /"//new_line("a")//repeat("! a long deck"//new_line("a"), 9000)
+      manifest%effective = ""
+      manifest%title = "A title"
+      manifest%cases = cases
+      manifest%blocks = 2
+      allocate(manifest%time(times), manifest%input(3))
+      manifest%time = [(0.02_wp*(i - 1), i=1, times)]
+      do i = 1, 3
+         manifest%input(i)%unit = ""
+         manifest%input(i)%long_name = "input "//to_text(i)
+      end do
+      manifest%input(1)%name = "model"
+      manifest%input(1)%kind = kind_choice
+      manifest%input(2)%name = "film.gap_mm"
+      manifest%input(2)%unit = "mm"
+      manifest%input(2)%kind = kind_number
+      manifest%input(3)%name = "pressure.file"
+      manifest%input(3)%kind = kind_text
+      call give_words(manifest%input(1), "traditional", "squeeze")
+      allocate(manifest%input(2)%word(0))
+      call give_words(manifest%input(3), "a.csv", "b, c.csv")
+   end subroutine make_manifest
+
+   subroutine give_words(input, first, second)
+      type(input_type), intent(inout) :: input
+      character(len=*), intent(in) :: first, second
+
+      allocate(input%word(2))
+      input%word(1)%s = first
+      input%word(2)%s = second
+   end subroutine give_words
+
+   !> In SI, measure m of case i is i + m/1000, its trace k at time t is 100 i + 10 k + t; every second case failed.
+   subroutine make_part(one, first, last)
+      type(part_type), intent(out) :: one
+      integer, intent(in) :: first, last
+      integer :: i, j, m, k, t
+
+      one%result%first = first
+      allocate(one%input(3, last - first + 1), one%result%measure(n_measures, last - first + 1))
+      allocate(one%result%fact(n_facts, last - first + 1), source=1.0_wp)
+      allocate(one%result%trace(times, n_traces, last - first + 1), one%result%status(last - first + 1))
+      allocate(one%result%warnings(last - first + 1), one%result%message(last - first + 1))
+      do j = 1, last - first + 1
+         i = first + j - 1
+         one%input(:, j) = [1.0_wp + mod(i, 2), 0.1_wp*i, 1.0_wp + mod(i, 2)]
+         one%result%measure(:, j) = [(i + 0.001_wp*m, m=1, n_measures)]
+         one%result%measure(3, j) = nan
+         do k = 1, n_traces
+            one%result%trace(:, k, j) = [(100.0_wp*i + 10.0_wp*k + t, t=1, times)]
+         end do
+         one%result%status(j) = merge(0, 2, mod(i, 2) == 1)
+         one%result%warnings(j) = mod(i, 2)
+         one%result%message(j)%s = ""
+         if (mod(i, 2) == 0) one%result%message(j)%s = 'why? "so", he said'
+      end do
+   end subroutine make_part
+
+   !> The number of a variable.
+   integer function number_of(file, name) result(var)
+      integer, intent(in) :: file
+      character(len=*), intent(in) :: name
+
+      if (nf90_inq_varid(file, name, var) /= nf90_noerr) var = -1
+   end function number_of
+
+   !> A global attribute.
+   function attribute(file, name) result(text)
+      integer, intent(in) :: file
+      character(len=*), intent(in) :: name
+      character(len=:), allocatable :: text
+      integer :: length
+
+      if (nf90_inquire_attribute(file, nf90_global, name, len=length) /= nf90_noerr) length = 0
+      allocate(character(len=length) :: text)
+      if (length == 0) return
+      if (nf90_get_att(file, nf90_global, name, text) /= nf90_noerr) text = "unreadable"
+   end function attribute
+
+end program test_results
