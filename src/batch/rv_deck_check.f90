@@ -286,10 +286,8 @@ contains
          text = "without run.traces = .true."
       else if (key == key_fluid_density_kg_m3 .or. key == key_fluid_viscosity_pa_s) then
          text = "with hydro.load = 'none'"
-      else if (any(keys(key)%for_model)) then
-         text = "on the model '"//choice_name(key_run_model, nint(deck%value(key_run_model)))//"'"
       else
-         text = "on the lumped models"
+         text = "on the model '"//choice_name(key_run_model, nint(deck%value(key_run_model)))//"'"
       end if
    end function reason
 

@@ -7,10 +7,8 @@ module rv_deck_settings
    use rv_deck_draft, only : draft_type, name_trace
    use rv_keys, only : keys, n_keys, full_name, default_value, text_key, real_key, key_run_title, key_run_model, &
       & key_run_start, key_run_t_end_ms, key_pressure_kind, key_pressure_file, kind_square, start_by_kind, start_rest, &
-      & start_equilibrium, key_hydro_load, key_film_fields_ms, load_by_model, model_traditional, &
-      & model_squeeze, model_film, model_film_table
+      & start_equilibrium, key_hydro_load, key_film_fields_ms, load_by_model, default_load, n_models
    use rv_cases, only : axis_type, deck_type
-   use rv_hydrodynamic_load, only : load_published, load_maali
    implicit none
    private
    public :: read_settings, default_by_model
@@ -48,13 +46,12 @@ contains
    !> The load's default, where all models share one; else each case takes its model's. Sweeps must have been read.
    subroutine default_by_model(deck)
       type(deck_type), intent(inout) :: deck
-      logical :: film, lumped
+      integer, allocatable :: load(:)
+      integer :: model
 
       if (nint(deck%value(key_hydro_load)) /= load_by_model) return
-      film = any(deck%uses_model([model_film, model_film_table]))
-      lumped = any(deck%uses_model([model_traditional, model_squeeze]))
-      if (lumped .and. .not. film) deck%value(key_hydro_load) = real(load_published, wp)
-      if (film .and. .not. lumped) deck%value(key_hydro_load) = real(load_maali, wp)
+      load = pack([(default_load(model), model = 1, n_models)], deck%uses_model([(model, model = 1, n_models)]))
+      if (all(load == load(1))) deck%value(key_hydro_load) = real(load(1), wp)
    end subroutine default_by_model
 
    subroutine read_setting(draft, e, key)

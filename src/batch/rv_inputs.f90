@@ -5,7 +5,8 @@ module rv_inputs
    use rv_number, only : tidy
    use rv_keys, only : choice_count, choice_key, choice_name, from_si, full_name, key_run_model, keys, n_keys, text_key
    use rv_deck, only : deck_type
-   use rv_block, only : block_count, trace_times
+   use rv_block, only : block_count, trace_count, trace_times
+   use rv_field_mesh, only : deck_field_mesh
    use rv_manifest, only : input_type, kind_choice, kind_number, kind_text, manifest_type
    use rv_version, only : code_version
    implicit none
@@ -29,6 +30,8 @@ contains
       manifest%cases = deck%case_count()
       manifest%blocks = block_count(deck)
       manifest%time = tidy(trace_times(deck)*1.0e3_wp)
+      manifest%traces = trace_count(deck)
+      call deck_field_mesh(deck, manifest%fields)
       allocate(swept, source=deck%swept_keys())
       allocate(manifest%input(size(swept) + 1))
       call describe(deck, key_run_model, manifest%input(1))

@@ -6,7 +6,7 @@ module rv_key_text
    use rv_text_builder, only : text_builder
    use rv_keys, only : keys, n_keys, n_rows, n_models, real_key, integer_key, logical_key, choice_key, text_key, &
       & choice_count, choice_name, choice_index, kind_square, key_run_model, key_run_trace_dt_ms, &
-      & key_pressure_kind
+      & key_pressure_kind, key_hydro_load, default_load
    use rv_key_value, only : range_text, unknown_choice
    implicit none
    private
@@ -63,6 +63,10 @@ contains
       is_live = keys(key)%default /= "" .and. keys(key)%for_kind <= kind_square .and. key /= key_run_trace_dt_ms
       line = trim(keys(key)%name)//" = "//default_text(key)
       if (key == key_run_model) line = trim(keys(key)%name)//" = '"//choice_name(key, model)//"'"
+      if (key == key_hydro_load) then
+         is_live = .true.
+         line = trim(keys(key)%name)//" = '"//choice_name(key, default_load(model))//"'"
+      end if
       if (line(len(line):) == " ") line = line//"..."
       if (.not. is_live) line = "! "//line
       line = margin//line//repeat(" ", max(1, help_column - len(margin) - len(line)))//"! "
@@ -145,7 +149,6 @@ contains
 
       text = ""
       if (key > n_keys) return
-      if (.not. any(keys(key)%for_model)) text = ", no lumped model"
       do i = 1, n_models
          if (keys(key)%for_model(i) .and. .not. all(keys(key)%for_model)) text = text//", model '" &
             & //choice_name(key_run_model, i)//"'"

@@ -8,12 +8,13 @@ module rv_keys
    use, intrinsic :: ieee_arithmetic, only : ieee_value, ieee_quiet_nan, ieee_is_nan
    use rv_kinds, only : wp
    use rv_text, only : lower, to_text
+   use rv_hydrodynamic_load, only : load_published, load_maali
    use rv_number, only : tidy
    implicit none
    private
    public :: key_type, keys, n_keys, n_rows, n_models
    public :: real_key, integer_key, logical_key, choice_key, text_key, mixed_key
-   public :: find_key, full_name, default_value, to_si, from_si, value_text
+   public :: default_load, find_key, full_name, default_value, to_si, from_si, value_text
    public :: choice_count, choice_name, choice_index
    public :: key_run_title, key_run_model, key_run_start, key_run_t_end_ms, key_run_traces, &
       & key_run_trace_dt_ms, key_run_block_size
@@ -208,6 +209,14 @@ module rv_keys
       & [run_keys, reed_keys, medium_keys, pressure_keys, solver_keys, case_keys]
 
 contains
+
+   !> hydro.load of a model that is given none.
+   pure integer function default_load(model) result(load)
+      integer, intent(in) :: model
+
+      load = load_published
+      if (any(model == [model_film, model_film_table])) load = load_maali
+   end function default_load
 
    !> The place of a key in the table, 0 if there is none; names in lower case.
    pure integer function find_key(group, name) result(key)

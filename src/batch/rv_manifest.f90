@@ -8,6 +8,7 @@ module rv_manifest
    use rv_error, only : error_type, fail, rv_io
    use rv_text, only : text_type, to_text
    use rv_checksum, only : crc32_text
+   use rv_field_mesh, only : field_mesh
    use rv_records, only : add_record, next_record, record_count, record_value
    implicit none
    private
@@ -37,6 +38,8 @@ module rv_manifest
       integer :: blocks = 0
       type(input_type), allocatable :: input(:)   !! the model first
       real(wp), allocatable :: time(:)            !! of the traces [ms]; empty without traces
+      integer :: traces = 0                       !! values in a trace sample
+      type(field_mesh) :: fields                  !! of the film's pressure, if they are stored
    contains
       procedure :: to_text => manifest_to_text
       procedure :: from_text => manifest_from_text
@@ -60,7 +63,12 @@ contains
       call add_record(text, "effective_values", self%effective)
       call add_record(text, "cases", to_text(self%cases))
       call add_record(text, "blocks", to_text(self%blocks))
-      call add_record(text, "time_ms", times_to_text(self%time))
+      call add_record(text, "time_ms", reals_to_text(self%time))
+      call add_record(text, "traces", to_text(self%traces))
+      call add_record(text, "field_time_ms", reals_to_text(self%fields%time))
+      call add_record(text, "node_x_mm", reals_to_text(self%fields%x))
+      call add_record(text, "node_y_mm", reals_to_text(self%fields%y))
+      call add_record(text, "rings", to_text(self%fields%rings))
       do i = 1, size(self%input)
          call add_record(text, "input", input_to_text(self%input(i)))
       end do
@@ -85,7 +93,14 @@ contains
       self%deck = record_value(text, "deck")
       self%title = record_value(text, "title")
       self%effective = record_value(text, "effective_values")
-      call times_from_text(record_value(text, "time_ms"), self%time, status)
+      call reals_from_text(record_value(text, "time_ms"), self%time, status)
+      if (status == 0) call reals_from_text(record_value(text, "field_time_ms"), self%fields%time, status)
+      if (status == 0) call reals_from_text(record_value(text, "node_x_mm"), self%fields%x, status)
+      if (status == 0) call reals_from_text(record_value(text, "node_y_mm"), self%fields%y, status)
+      value = record_value(text, "rings")
+      if (status == 0) read(value, *, iostat=status) self%fields%rings
+      value = record_value(text, "traces")
+      if (status == 0) read(value, *, iostat=status) self%traces
       value = record_value(text, "cases")
       if (status == 0) read(value, *, iostat=status) self%cases
       value = record_value(text, "blocks")
@@ -166,7 +181,7 @@ contains
    end subroutine input_from_text
 
    !> Exact: to_text gives every double the digits that read back the same.
-   pure function times_to_text(time) result(text)
+   pure function reals_to_text(time) result(text)
       real(wp), intent(in) :: time(:)
       character(len=:), allocatable :: text
       character(len=:), allocatable :: buffer, one
@@ -180,9 +195,9 @@ contains
          used = used + len(one)
       end do
       text = to_text(size(time))//" "//buffer(:used)
-   end function times_to_text
+   end function reals_to_text
 
-   pure subroutine times_from_text(text, time, status)
+   pure subroutine reals_from_text(text, time, status)
       character(len=*), intent(in) :: text
       real(wp), allocatable, intent(out) :: time(:)
       integer, intent(out) :: status
@@ -194,6 +209,6 @@ contains
       if (status /= 0) return
       read(text, *, iostat=status) n, time
       if (status /= 0) time = 0.0_wp
-   end subroutine times_from_text
+   end subroutine reals_from_text
 
 end module rv_manifest

@@ -11,7 +11,7 @@ module rv_parts
    use rv_text, only : text_type, to_text
    use rv_posix, only : path_file, path_kind, remove_file, rename_path
    use rv_file, only : file_type, new_suffix
-   use rv_block, only : block_result, n_facts, n_measures, n_traces
+   use rv_block, only : block_result, n_facts, n_measures
    implicit none
    private
    public :: part_type, part_name, is_part_name, write_part, read_part
@@ -26,9 +26,9 @@ module rv_parts
    character(len=*), parameter :: suffix = ".part"
    integer, parameter :: digits = 9          !! of a block's number in its name
 
-   integer, parameter :: n_head = 12
+   integer, parameter :: n_head = 14
    integer(i8), parameter :: magic = int(z'5256506172740D0A', i8)   !! also tells the byte order
-   integer(i8), parameter :: format_version = 1
+   integer(i8), parameter :: format_version = 2
    integer(i8), parameter :: bytes_real = storage_size(1.0_wp)/8
    integer(i8), parameter :: bytes_integer = storage_size(1)/8
    integer(i8), parameter :: bytes_word = storage_size(1_i8)/8   !! of the head and the checksums
@@ -119,7 +119,7 @@ contains
       call join(part%result%message, messages)
       head = [magic, format_version, int(identity, i8), int(block, i8), part%result%first, n, &
          & size(part%input, 1, i8), int(n_measures, i8), int(n_facts, i8), size(part%result%trace, 1, i8), &
-         & int(n_traces, i8), len(messages, i8)]
+         & size(part%result%trace, 2, i8), len(messages, i8), size(part%result%field, 1, i8), size(part%result%field, 2, i8)]
       call file%put(c_loc(head), bytes_word*n_head, error)
       if (allocated(error)) return
       call put_checksum(file, error)
@@ -131,6 +131,7 @@ contains
       if (.not. allocated(error)) call put_integers(file, lengths(part%result%message), n, error)
       if (.not. allocated(error)) call put_text(file, messages, error)
       if (.not. allocated(error)) call put_reals(file, part%result%trace, size(part%result%trace, kind=i8), error)
+      if (.not. allocated(error)) call put_reals(file, part%result%field, size(part%result%field, kind=i8), error)
       if (.not. allocated(error)) call put_checksum(file, error)
    end subroutine put_part
 
@@ -155,7 +156,7 @@ contains
       n = head(6)
       allocate(part%input(head(7), n), part%result%measure(n_measures, n), part%result%fact(n_facts, n))
       allocate(part%result%status(n), part%result%warnings(n), length(n))
-      allocate(part%result%trace(head(10), n_traces, n))
+      allocate(part%result%trace(head(10), head(11), n), part%result%field(head(13), head(14), n))
       allocate(character(len=head(12)) :: messages)
       part%result%first = head(5)
       call get_reals(file, part%input, head(7)*n, error)
@@ -165,7 +166,8 @@ contains
       if (.not. allocated(error)) call get_integers(file, part%result%warnings, n, error)
       if (.not. allocated(error)) call get_integers(file, length, n, error)
       if (.not. allocated(error)) call get_text(file, messages, error)
-      if (.not. allocated(error)) call get_reals(file, part%result%trace, head(10)*n_traces*n, error)
+      if (.not. allocated(error)) call get_reals(file, part%result%trace, head(10)*head(11)*n, error)
+      if (.not. allocated(error)) call get_reals(file, part%result%field, head(13)*head(14)*n, error)
       if (.not. allocated(error)) call get_checksum(file, error)
       if (.not. allocated(error)) part%result%message = split(messages, length)
    end subroutine get_part
@@ -180,10 +182,11 @@ contains
       integer(i8) :: n, expected
 
       n = head(6)
-      expected = bytes_word*(n_head + 2) + bytes_real*((head(7) + n_measures + n_facts + head(10)*n_traces)*n) &
+      expected = bytes_word*(n_head + 2) + bytes_real*((head(7) + n_measures + n_facts + head(10)*head(11) &
+         & + head(13)*head(14))*n) &
          & + 3*bytes_integer*n + head(12)
       if (head(1) /= magic .or. head(2) /= format_version .or. head(8) /= n_measures &
-         & .or. head(9) /= n_facts .or. head(11) /= n_traces) then
+         & .or. head(9) /= n_facts) then
          call fail(error, rv_io, "it is no part of this version of reedvalve, or of a machine of another byte order")
       else if (head(3) /= identity .or. head(4) /= block) then
          call fail(error, rv_io, "it belongs to another run")

@@ -14,6 +14,7 @@ module rv_results_netcdf
    use rv_block, only : column_type, fact_columns, measure_columns, n_facts, n_measures, n_traces, &
       & trace_columns
    use rv_status, only : n_statuses, n_warnings, status_name, warning_name
+   use rv_field_mesh, only : field_mesh
    use rv_manifest, only : input_type, kind_choice, kind_text, manifest_type
    use rv_parts, only : part_type
    use rv_version, only : code_version, compiler_text, library_text
@@ -21,6 +22,7 @@ module rv_results_netcdf
    private
    public :: netcdf_writer, expected_size
 
+   real(wp), parameter :: kilo = 1.0e3_wp       !! Pa to kPa
    integer, parameter :: message_length = 200   !! longer messages are cut
 
    integer, parameter :: chunk_cases = 16384           !! cases in one chunk of a variable without time
@@ -46,7 +48,9 @@ module rv_results_netcdf
       integer :: fact_var(n_facts) = 0
       integer :: trace_var(n_traces) = 0
       integer :: status_var = 0, warnings_var = 0, message_var = 0
-      integer :: times = 0
+      integer :: times = 0, traces = 0
+      integer :: field_var = 0, nodes = 0, field_times = 0
+      integer :: mesh_var(4) = 0                 !! x, y, faces, times
       integer :: flag = nf90_noerr               !! of the first call that failed
       character(len=:), allocatable :: at         !! what that call was about
    contains
@@ -60,6 +64,8 @@ module rv_results_netcdf
       procedure, private :: define_inputs
       procedure, private :: define_columns
       procedure, private :: define_traces
+      procedure, private :: define_fields
+      procedure, private :: put_mesh
       procedure, private :: describe
       procedure, private :: describe_flags
       procedure, private :: put_input
@@ -79,6 +85,7 @@ contains
       self%flag = nf90_noerr
       self%input = manifest%input
       self%times = size(manifest%time)
+      self%traces = manifest%traces
       self%measure = measure_columns()
       self%fact = fact_columns()
       self%trace = trace_columns()
@@ -90,8 +97,10 @@ contains
       call self%define_inputs(int(manifest%cases))
       call self%define_columns(int(manifest%cases))
       if (self%times > 0) call self%define_traces(int(manifest%cases))
+      if (size(manifest%fields%time) > 0) call self%define_fields(int(manifest%cases), manifest%fields)
       call self%note(nf90_enddef(self%file), "the definitions")
       if (self%times > 0) call self%note(nf90_put_var(self%file, self%time_var, manifest%time), "time_ms")
+      if (self%nodes > 0) call self%put_mesh(manifest%fields)
       call self%give_up(error)
    end subroutine create
 
@@ -121,10 +130,12 @@ contains
          call self%note(nf90_put_var(self%file, self%warnings_var, int(result%warnings, int8), [first], [n]), &
             & "warnings")
          call self%put_messages(result%message, first)
-         do i = 1, merge(n_traces, 0, self%times > 0)
+         do i = 1, merge(self%traces, 0, self%times > 0)
             call self%note(nf90_put_var(self%file, self%trace_var(i), result%trace(:, i, :)*self%trace(i)%to_unit, &
                & [1, first], [self%times, n]), trim(self%trace(i)%name))
          end do
+         if (self%nodes > 0) call self%note(nf90_put_var(self%file, self%field_var, result%field/kilo, &
+            & [1, 1, first], [self%nodes, self%field_times, n]), "film_pressure_kpa")
       end associate
       call self%give_up(error)
    end subroutine put
@@ -272,14 +283,63 @@ contains
       call self%note(nf90_def_dim(self%file, "time", self%times, time_dim), "dimension time")
       self%time_var = new_variable(self, "time_ms", nf90_double, [time_dim], [chunk(1)])
       call self%describe(self%time_var, "ms", "time")
-      do i = 1, n_traces
+      do i = 1, self%traces
          self%trace_var(i) = new_variable(self, trim(self%trace(i)%name), nf90_double, [time_dim, self%case_dim], chunk)
          call self%describe(self%trace_var(i), trim(self%trace(i)%unit), trim(self%trace(i)%long_name))
          call self%note(nf90_put_att(self%file, self%trace_var(i), "coordinates", "time_ms"), trim(self%trace(i)%name))
       end do
    end subroutine define_traces
 
-   !> A chunked variable; reals are filled with NaN.
+   !> The film's pressure fields on their mesh, as UGRID 1.0 has it: topology, node coordinates, faces.
+   subroutine define_fields(self, cases, fields)
+      class(netcdf_writer), intent(inout) :: self
+      integer, intent(in) :: cases
+      type(field_mesh), intent(in) :: fields
+      integer :: node_dim, time_dim, face_dim, corner_dim, var
+
+      self%nodes = size(fields%x)
+      self%field_times = size(fields%time)
+      if (self%nodes == 0) return
+      call self%note(nf90_def_dim(self%file, "film_node", self%nodes, node_dim), "dimension film_node")
+      call self%note(nf90_def_dim(self%file, "field_time", self%field_times, time_dim), "dimension field_time")
+      call self%note(nf90_def_dim(self%file, "film_face", size(fields%faces(), 2), face_dim), "dimension film_face")
+      call self%note(nf90_def_dim(self%file, "corner", 4, corner_dim), "dimension corner")
+      var = new_variable(self, "film_mesh", nf90_int, [integer ::], [integer ::])
+      call self%describe(var, "1", "mesh of the film under the half reed, y >= 0")
+      call self%note(nf90_put_att(self%file, var, "cf_role", "mesh_topology"), "film_mesh")
+      call self%note(nf90_put_att(self%file, var, "topology_dimension", 2), "film_mesh")
+      call self%note(nf90_put_att(self%file, var, "node_coordinates", "film_x_mm film_y_mm"), "film_mesh")
+      call self%note(nf90_put_att(self%file, var, "face_node_connectivity", "film_faces"), "film_mesh")
+      self%mesh_var(1) = new_variable(self, "film_x_mm", nf90_double, [node_dim], [self%nodes])
+      call self%describe(self%mesh_var(1), "mm", "distance from the clamp along the reed")
+      self%mesh_var(2) = new_variable(self, "film_y_mm", nf90_double, [node_dim], [self%nodes])
+      call self%describe(self%mesh_var(2), "mm", "distance from the symmetry line")
+      self%mesh_var(3) = new_variable(self, "film_faces", nf90_int, [corner_dim, face_dim], [4, size(fields%faces(), 2)])
+      call self%describe(self%mesh_var(3), "1", "nodes of each face")
+      call self%note(nf90_put_att(self%file, self%mesh_var(3), "cf_role", "face_node_connectivity"), "film_faces")
+      call self%note(nf90_put_att(self%file, self%mesh_var(3), "start_index", 1), "film_faces")
+      self%mesh_var(4) = new_variable(self, "field_time_ms", nf90_double, [time_dim], [self%field_times])
+      call self%describe(self%mesh_var(4), "ms", "time of the film pressure fields")
+      self%field_var = new_variable(self, "film_pressure_kpa", nf90_double, [node_dim, time_dim, self%case_dim], &
+         & [self%nodes, self%field_times, max(1, min(cases, chunk_bytes/(bytes_real*self%nodes*self%field_times)))])
+      call self%describe(self%field_var, "kPa", "film pressure, on the scale of inlet and outlet pressure")
+      call self%note(nf90_put_att(self%file, self%field_var, "mesh", "film_mesh"), "film_pressure_kpa")
+      call self%note(nf90_put_att(self%file, self%field_var, "location", "node"), "film_pressure_kpa")
+      call self%note(nf90_put_att(self%file, self%field_var, "coordinates", "field_time_ms film_x_mm film_y_mm"), &
+         & "film_pressure_kpa")
+   end subroutine define_fields
+
+   subroutine put_mesh(self, fields)
+      class(netcdf_writer), intent(inout) :: self
+      type(field_mesh), intent(in) :: fields
+
+      call self%note(nf90_put_var(self%file, self%mesh_var(1), fields%x), "film_x_mm")
+      call self%note(nf90_put_var(self%file, self%mesh_var(2), fields%y), "film_y_mm")
+      call self%note(nf90_put_var(self%file, self%mesh_var(3), fields%faces()), "film_faces")
+      call self%note(nf90_put_var(self%file, self%mesh_var(4), fields%time), "field_time_ms")
+   end subroutine put_mesh
+
+   !> A chunked variable, or a scalar; reals are filled with NaN.
    integer function new_variable(self, name, kind, dims, chunk) result(var)
       class(netcdf_writer), intent(inout) :: self
       character(len=*), intent(in) :: name
@@ -288,6 +348,10 @@ contains
       real(wp) :: nan
 
       var = 0
+      if (size(dims) == 0) then
+         call self%note(nf90_def_var(self%file, name, kind, var), name)
+         return
+      end if
       call self%note(nf90_def_var(self%file, name, kind, dims, var, chunksizes=chunk, cache_size=cache_bytes, &
          & cache_nelems=509, cache_preemption=100), name)
       if (kind /= nf90_double) return
@@ -395,7 +459,8 @@ contains
 
       cases = manifest%cases
       if (cases > chunk_cases) cases = chunk_cases*((cases + chunk_cases - 1)/chunk_cases)
-      case_bytes = 6 + bytes_real*(n_measures + n_facts + n_traces*size(manifest%time, kind=i8))
+      case_bytes = 6 + bytes_real*(n_measures + n_facts + manifest%traces*size(manifest%time, kind=i8) &
+         & + size(manifest%fields%time, kind=i8)*size(manifest%fields%x))
       do i = 1, size(manifest%input)
          case_bytes = case_bytes + bytes_real
          if (manifest%input(i)%kind == kind_text) case_bytes = case_bytes + longest_word(manifest%input(i)%word)

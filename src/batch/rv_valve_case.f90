@@ -8,8 +8,9 @@ module rv_valve_case
    use rv_film_reed, only : film_reed, new_film_reed
    use rv_film_table, only : film_table, new_film_table
    use rv_film_valve, only : film_valve, new_film_valve
-   use rv_hydrodynamic_load, only : hydrodynamic_load, new_hydrodynamic_load, fluid_type, load_published, load_maali
-   use rv_keys, only : n_keys, model_squeeze, model_film, model_film_table, load_by_model, kind_trace, start_equilibrium, &
+   use rv_hydrodynamic_load, only : hydrodynamic_load, new_hydrodynamic_load, fluid_type, load_published
+   use rv_keys, only : n_keys, model_squeeze, model_film, model_film_table, load_by_model, default_load, &
+      & kind_trace, start_equilibrium, &
       & key_run_model, key_run_start, key_run_t_end_ms, key_reed_a_mm, key_reed_b_mm, key_reed_hole_diameter_mm, &
       & key_reed_width_mm, key_reed_thickness_mm, key_reed_density_kg_m3, key_reed_youngs_modulus_gpa, key_reed_k_a, &
       & key_reed_poisson_ratio, key_reed_action_area_mm2, key_fluid_density_kg_m3, key_fluid_viscosity_pa_s, &
@@ -103,7 +104,7 @@ contains
          & value(key_reed_youngs_modulus_gpa), value(key_reed_k_a), facts%error)
       if (allocated(facts%error)) return
       fluid = fluid_of(value)
-      call new_hydrodynamic_load(load, load_of(value, load_published), reed, fluid, facts%error)
+      call new_hydrodynamic_load(load, load_of(value), reed, fluid, facts%error)
       if (allocated(facts%error)) return
 
       valve%mass = reed%mass + load%added_mass
@@ -162,7 +163,7 @@ contains
       type(case_facts), intent(inout) :: facts
 
       call new_film_valve(valve, reed, value(key_reed_thickness_mm), value(key_reed_density_kg_m3), &
-         & value(key_reed_youngs_modulus_gpa), value(key_reed_poisson_ratio), load_of(value, load_maali), &
+         & value(key_reed_youngs_modulus_gpa), value(key_reed_poisson_ratio), load_of(value), &
          & fluid_of(value), value(key_film_gap_mm), facts%error)
       if (allocated(facts%error)) return
       call amplitudes_of(value, valve%inlet, valve%outlet)
@@ -248,12 +249,11 @@ contains
       fluid = fluid_type(density=value(key_fluid_density_kg_m3), viscosity=value(key_fluid_viscosity_pa_s))
    end function fluid_of
 
-   pure integer function load_of(value, default) result(load)
+   pure integer function load_of(value) result(load)
       real(wp), intent(in) :: value(n_keys)
-      integer, intent(in) :: default   !! of the model
 
       load = nint(value(key_hydro_load))
-      if (load == load_by_model) load = default
+      if (load == load_by_model) load = default_load(nint(value(key_run_model)))
    end function load_of
 
    !> What the factors of the pressure history are multiplied with: a trace's are pressures already.

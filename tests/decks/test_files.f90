@@ -189,7 +189,7 @@ contains
          & "@:1:16: case 2: reed.hole_diameter_mm = 4 must not exceed reed.width_mm = 3")
       call write_file("plan.csv", lines("run.model~squeeze~sqeeze~"))
       call says(suite, "design, model", deck, &
-         & "plan.csv:3:1: run.model = sqeeze: must be one of 'traditional', 'squeeze'; " &
+         & "plan.csv:3:1: run.model = sqeeze: must be one of 'traditional', 'squeeze', 'film', 'film_table'; " &
          & //"did you mean 'squeeze'?")
       call says(suite, "design, models twice", "&run model = 'squeeze', 'traditional' /~"//deck, &
          & "plan.csv:1:1: 'run.model': the deck lists several models in &run; name them in one place only")

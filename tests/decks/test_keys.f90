@@ -130,7 +130,7 @@ contains
       end do
       call write_template("squeze", text, error)
       call suite%fails("template of no model", error, &
-         & "must be one of 'traditional', 'squeeze'; did you mean 'squeeze'?")
+         & "must be one of 'traditional', 'squeeze', 'film', 'film_table'; did you mean 'squeeze'?")
    end subroutine templates
 
    subroutine distances()

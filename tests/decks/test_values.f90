@@ -64,7 +64,7 @@ contains
       call says(suite, "logical in quotes", "&run traces = '.true.' /", &
          & "@:1:15: run.traces = '.true.': must stand without quotes")
       call says(suite, "choice", "&run model = 'sqeeze' /", &
-         & "@:1:14: run.model = 'sqeeze': must be one of 'traditional', 'squeeze'; did you mean 'squeeze'?")
+         & "@:1:14: run.model = 'sqeeze': must be one of 'traditional', 'squeeze', 'film', 'film_table'; did you mean 'squeeze'?")
       call says(suite, "choice without quotes", "&run model = squeeze /", &
          & "@:1:14: run.model = squeeze: must stand in quotes: 'squeeze'")
       call says(suite, "choice as number", "&hydro load = 1 /", &
@@ -122,7 +122,7 @@ contains
          & "&run model = 'traditional' / &sweep key = 'film.gap_mm', values = 0.1, 0.2 /", &
          & "@:1:43: warning: film.gap_mm has no effect on the model 'traditional'")
       call says(suite, "Poisson's ratio", "&reed poisson_ratio = 0.3 /", &
-         & "@:1:23: warning: reed.poisson_ratio has no effect on the lumped models")
+         & "@:1:23: warning: reed.poisson_ratio has no effect on the model 'squeeze'")
       call says(suite, "interval without traces", "&run trace_dt_ms = 0.1 /", &
          & "@:1:20: warning: run.trace_dt_ms has no effect without run.traces = .true.")
       call says(suite, "interval with traces", "&run trace_dt_ms = 0.1, traces = t /", "")

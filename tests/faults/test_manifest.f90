@@ -28,6 +28,12 @@ contains
       call suite%equal("inputs", size(back%input), 3)
       call suite%text("a file's name", back%input(3)%word(2)%s, "two"//new_line("a")//" 17 lines")
       call suite%true("times to the bit", all(abs(back%time - manifest%time) <= 0.0_wp))
+      call suite%true("field mesh to the bit", all(abs(back%fields%x - manifest%fields%x) <= 0.0_wp) &
+         & .and. all(abs(back%fields%y - manifest%fields%y) <= 0.0_wp) &
+         & .and. all(abs(back%fields%time - manifest%fields%time) <= 0.0_wp))
+      call suite%equal("nodes along a ray", back%fields%rings, 3)
+      call suite%equal("values in a trace sample", back%traces, 10)
+      call suite%equal("faces of two rays of three nodes", size(back%fields%faces(), 2), 2)
       call suite%text("no difference", manifest%difference(back), "")
       call suite%true("one identity", back%identity() == manifest%identity())
       deallocate(manifest%time)
@@ -86,6 +92,11 @@ contains
       manifest%cases = 5000000000_i8
       manifest%blocks = 2
       allocate(manifest%time(7), manifest%input(3))
+      manifest%traces = 10
+      manifest%fields%time = [19.5_wp, 20.0_wp]
+      manifest%fields%x = [(1.0_wp/i, i=1, 6)]
+      manifest%fields%y = [(0.1_wp*i, i=1, 6)]
+      manifest%fields%rings = 3
       manifest%time = [(0.1_wp*i, i=1, 7)]
       call name_input(manifest%input(1), "model", "", kind_choice, 2)
       call name_input(manifest%input(2), "film.gap_mm", "mm", kind_number, 0)

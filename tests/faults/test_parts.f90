@@ -49,6 +49,7 @@ contains
       call suite%true("status", all(back%result%status == part%result%status))
       call suite%true("warnings", all(back%result%warnings == part%result%warnings))
       call suite%true("traces", all(same(back%result%trace, part%result%trace)))
+      call suite%true("fields", all(same(back%result%field, part%result%field)))
       call suite%equal("size of the traces", size(back%result%trace, 1), times)
       do i = 1, cases - 1
          call suite%text("message "//to_text(i), back%result%message(i)%s, part%result%message(i)%s)
@@ -117,6 +118,7 @@ contains
       part%input = reshape([(0.1_wp*i, i=1, 3*cases)], [3, cases])
       part%result%measure = reshape([(sqrt(real(i - 3, wp)), i=1, n_measures*cases)], [n_measures, cases])
       part%result%fact = reshape([(1.0e-7_wp/i, i=1, n_facts*cases)], [n_facts, cases])
+      part%result%field = reshape([(1.0_wp/i, i=1, 6*cases)], [3, 2, cases])
       part%result%trace = reshape([(-1.0_wp/i, i=1, times*n_traces*cases)], [times, n_traces, cases])
       part%result%status = [(mod(i, 3), i=1, cases)]
       part%result%warnings = [(mod(i, 2), i=1, cases)]

@@ -151,6 +151,8 @@ contains
       manifest%cases = cases
       manifest%blocks = 2
       allocate(manifest%time(times), manifest%input(3))
+      manifest%traces = n_traces
+      allocate(manifest%fields%time(0), manifest%fields%x(0), manifest%fields%y(0))
       manifest%time = [(0.02_wp*(i - 1), i=1, times)]
       do i = 1, 3
          manifest%input(i)%unit = ""
@@ -186,6 +188,7 @@ contains
       one%result%first = first
       allocate(one%input(3, last - first + 1), one%result%measure(n_measures, last - first + 1))
       allocate(one%result%fact(n_facts, last - first + 1), source=1.0_wp)
+      allocate(one%result%field(0, 0, last - first + 1))
       allocate(one%result%trace(times, n_traces, last - first + 1), one%result%status(last - first + 1))
       allocate(one%result%warnings(last - first + 1), one%result%message(last - first + 1))
       do j = 1, last - first + 1
