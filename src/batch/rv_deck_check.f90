@@ -193,6 +193,7 @@ contains
       file = nint(value(key_pressure_file))
       if (file < 1 .or. file > size(deck%trace)) return
       associate (time => deck%trace(file)%time)
+         if (size(time) == 0) return   ! its faults have been told
          first = time(1)
          last = time(size(time))
       end associate
