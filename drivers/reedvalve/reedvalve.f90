@@ -1,8 +1,8 @@
 !> The command line program: `reedvalve run deck.nml` and its like; `reedvalve --help` tells them all.
 program reedvalve
    use rv_cli_arguments, only : arguments_type, read_arguments
-   use rv_cli_commands, only : cases_command, check_command, merge_command, run_command, &
-      & template_command
+   use rv_cli_commands, only : cases_command, check_command, merge_command, modes_command, &
+      & run_command, template_command
    use rv_cli_help, only : print_help, print_version
    use rv_cli_output, only : complain, end_program, exit_bad, exit_fine
    use rv_error, only : error_type
@@ -29,6 +29,8 @@ program reedvalve
          status = check_command(arguments)
       case ("cases")
          status = cases_command(arguments)
+      case ("modes")
+         status = modes_command(arguments)
       case ("template")
          status = template_command(arguments)
       case ("version")

@@ -27,11 +27,12 @@ module rv_cli_arguments
       character(len=48) :: options
    end type command_type
 
-   type(command_type), parameter :: commands(7) = [ &
+   type(command_type), parameter :: commands(8) = [ &
       & command_type("run", "DECK", .true., "-o --threads --resume --force --quiet"), &
       & command_type("merge", "DIR", .true., "--quiet"), &
       & command_type("check", "DECK", .true., "--quiet"), &
       & command_type("cases", "DECK", .true., "--threads"), &
+      & command_type("modes", "DECK", .true., "--quiet"), &
       & command_type("template", "MODEL", .false., ""), &
       & command_type("help", "COMMAND", .false., ""), &
       & command_type("version", "", .false., "")]

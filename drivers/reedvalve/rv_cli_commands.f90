@@ -14,13 +14,14 @@ module rv_cli_commands
    use rv_keys, only : default_value, full_name, key_run_model, keys, real_key, value_text
    use rv_kinds, only : wp, i8
    use rv_manifest, only : manifest_type
+   use rv_modes, only : modes_text
    use rv_posix, only : catch_signals, is_terminal, seconds
    use rv_results_netcdf, only : expected_size
    use rv_run, only : merge_folder, run_deck, run_options, run_outcome
    use rv_text, only : to_text
    implicit none
    private
-   public :: run_command, merge_command, check_command, cases_command, template_command
+   public :: run_command, merge_command, check_command, cases_command, modes_command, template_command
 
    integer(i8), parameter :: sample_cases = 64      !! cases in one sample for the estimate: as many as share lanes
    integer, parameter :: samples = 4                !! spread over the deck
@@ -92,6 +93,24 @@ contains
          call say(text(:len(text) - 1))
       end if
    end function template_command
+
+   !> What plate and film of the first case say, for standard output.
+   integer function modes_command(arguments) result(status)
+      type(arguments_type), intent(in) :: arguments
+      type(deck_type) :: deck
+      type(error_type), allocatable :: error
+      character(len=:), allocatable :: text
+
+      status = load_deck(arguments, deck)
+      if (status /= exit_fine) return
+      call modes_text(deck, text, error)
+      if (allocated(error)) then
+         call complain(arguments%operand//": "//error%message)
+         status = status_of(error)
+      else
+         call say(text(:len(text) - 1))
+      end if
+   end function modes_command
 
    !> What would run, how many cases, and about how long it would take.
    integer function cases_command(arguments) result(status)

@@ -15,6 +15,7 @@ contains
       call say("  reedvalve check DECK                   tell all that is wrong with a deck; run nothing")
       call say("  reedvalve cases DECK                   tell what would run, and about how long")
       call say("  reedvalve run DECK [options]           run all cases of a deck")
+      call say("  reedvalve modes DECK                   plate modes in vacuum and oil; k_a and k_s that match the film")
       call say("  reedvalve merge DIR                    write the results of a run whose cases are all finished")
       call say("")
       call say("Options of run:")

@@ -48,12 +48,13 @@ contains
    subroutine start_deck(path, deck)
       character(len=*), intent(in) :: path
       type(deck_type), intent(inout) :: deck
+      integer :: dot
 
       deck%path = path
       deck%folder = folder_of(path)
       deck%name = path(len(deck%folder) + 1:)
-      if (len(deck%name) > 4 .and. index(lower(deck%name), ".nml", back=.true.) == len(deck%name) - 3) &
-         & deck%name = deck%name(:len(deck%name) - 4)
+      dot = index(lower(deck%name), ".nml", back=.true.)
+      if (dot > 1 .and. dot == len(deck%name) - 3) deck%name = deck%name(:dot - 1)
       deck%title = ""
       allocate(deck%axis(0), deck%trace_name(0), deck%trace_mention(0), deck%trace_file(0))
    end subroutine start_deck

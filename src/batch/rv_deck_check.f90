@@ -22,16 +22,17 @@ module rv_deck_check
    real(wp), parameter :: most_periods = 1.0e5_wp   !! in one run
    integer(i8), parameter :: most_checked = 10000_i8   !! cases looked at; beyond them each case checks itself
 
-   !> Rules that tie values of one case together, and the keys each looks at.
-   integer, parameter :: hole_fits = 1, ramp_fits = 2, event_in_trace = 3, end_in_trace = 4, &
-      & few_periods = 5, event_not_negative = 6, event_before_end = 7, tip_is_round = 8, film_load = 9, n_rules = 9
+   !> Rules that tie values of one case together: the keys each looks at, and its pressure.kind (0: any).
+   integer, parameter :: hole_fits = 1, ramp_fits = 2, few_periods = 3, event_not_negative = 4, event_in_trace = 5, &
+      & end_in_trace = 6, event_before_end = 7, tip_is_round = 8, film_load = 9, n_rules = 9
+   integer, parameter :: rule_kind(n_rules) = [0, kind_square, kind_square, kind_square, kind_trace, kind_trace, 0, 0, 0]
    integer, parameter :: rule_keys(5, n_rules) = reshape([ &
       & key_reed_hole_diameter_mm, key_reed_width_mm, 0, 0, 0, &
-      & key_pressure_transition_ms, key_pressure_period_ms, key_pressure_kind, 0, 0, &
-      & key_pressure_event_ms, key_pressure_file, key_pressure_kind, 0, 0, &
-      & key_run_t_end_ms, key_pressure_file, key_pressure_kind, 0, 0, &
-      & key_run_t_end_ms, key_pressure_period_ms, key_pressure_kind, 0, 0, &
-      & key_pressure_event_ms, key_pressure_kind, 0, 0, 0, &
+      & key_pressure_transition_ms, key_pressure_period_ms, 0, 0, 0, &
+      & key_run_t_end_ms, key_pressure_period_ms, 0, 0, 0, &
+      & key_pressure_event_ms, 0, 0, 0, 0, &
+      & key_pressure_event_ms, key_pressure_file, 0, 0, 0, &
+      & key_run_t_end_ms, key_pressure_file, 0, 0, 0, &
       & key_run_t_end_ms, key_pressure_event_ms, key_pressure_period_ms, key_pressure_transition_ms, &
       & key_pressure_file, &
       & key_reed_b_mm, key_reed_width_mm, key_reed_hole_diameter_mm, key_run_model, 0, &
@@ -45,11 +46,12 @@ contains
       integer :: rule
 
       allocate(draft%deck%trace(0))
-      if (.not. draft%is_bad(key_pressure_kind)) call check_files(draft)
-      if (.not. any(draft%is_bad([key_pressure_kind, key_run_model]))) call warn_without_effect(draft)
+      if (draft%is_bad(key_pressure_kind)) return
+      if (nint(draft%deck%value(key_pressure_kind)) == kind_trace) call check_files(draft)
+      if (.not. draft%is_bad(key_run_model)) call warn_without_effect(draft)
       if (too_many_cases(draft)) return
       do rule = 1, n_rules
-         call check_rule(draft, rule)
+         if (any(rule_kind(rule) == [0, nint(draft%deck%value(key_pressure_kind))])) call check_rule(draft, rule)
       end do
       call check_samples(draft)
       call check_fields(draft)
@@ -86,13 +88,10 @@ contains
    subroutine check_files(draft)
       type(draft_type), intent(inout) :: draft
 
-      associate (deck => draft%deck)
-         if (nint(deck%value(key_pressure_kind)) /= kind_trace) return
-         if (.not. deck%given(key_pressure_file)) call tell_at(draft, key_pressure_kind, &
-            & "pressure.kind = 'trace' needs pressure.file, the CSV file of the trace")
-         if (.not. deck%given(key_pressure_event_ms)) call tell_at(draft, key_pressure_kind, &
-            & "pressure.kind = 'trace' needs pressure.event_ms, the time when closing starts")
-      end associate
+      if (.not. draft%deck%given(key_pressure_file)) call tell_at(draft, key_pressure_kind, &
+         & "pressure.kind = 'trace' needs pressure.file, the CSV file of the trace")
+      if (.not. draft%deck%given(key_pressure_event_ms)) call tell_at(draft, key_pressure_kind, &
+         & "pressure.kind = 'trace' needs pressure.event_ms, the time when closing starts")
       call read_traces(draft)
    end subroutine check_files
 
@@ -140,7 +139,7 @@ contains
       integer(i8) :: i
       integer :: key, n
 
-      list = pack(rule_keys(:, rule), rule_keys(:, rule) > 0)
+      allocate(list, source=pack(rule_keys(:, rule), rule_keys(:, rule) > 0))
       if (any(draft%is_bad(list))) return
       text = ""
       do i = 1, min(draft%deck%case_count(), most_checked)
@@ -168,49 +167,42 @@ contains
       real(wp), intent(in) :: value(n_keys)
       character(len=:), allocatable :: text
       real(wp) :: first, last, event, overhang
-      logical :: is_square, is_film, is_broken
+      logical :: is_film
 
       is_film = any(nint(value(key_run_model)) == [model_film, model_film_table])
-      is_square = nint(value(key_pressure_kind)) == kind_square
       call time_range(deck, value, first, last)
       event = value(key_pressure_event_ms)
-      if (is_square .and. ieee_is_nan(event)) &
-         & event = 0.5_wp*(value(key_pressure_period_ms) - value(key_pressure_transition_ms))
+      if (ieee_is_nan(event)) event = 0.5_wp*(value(key_pressure_period_ms) - value(key_pressure_transition_ms))
       text = ""
-      associate (finish => value(key_run_t_end_ms))
+      associate (finish => value(key_run_t_end_ms), period => value(key_pressure_period_ms))
          select case (rule)
          case (hole_fits)
-            is_broken = value(key_reed_hole_diameter_mm) > value(key_reed_width_mm)
-            if (is_broken) text = setting(key_reed_hole_diameter_mm, value)//" must not exceed " &
-               & //setting(key_reed_width_mm, value)
+            if (value(key_reed_hole_diameter_mm) > value(key_reed_width_mm)) text = &
+               & setting(key_reed_hole_diameter_mm, value)//" must not exceed "//setting(key_reed_width_mm, value)
          case (ramp_fits)
-            is_broken = value(key_pressure_transition_ms) >= 0.5_wp*value(key_pressure_period_ms)
-            if (is_square .and. is_broken) text = setting(key_pressure_transition_ms, value) &
+            if (value(key_pressure_transition_ms) >= 0.5_wp*period) text = setting(key_pressure_transition_ms, value) &
                & //" must be less than half of "//setting(key_pressure_period_ms, value)
-         case (event_in_trace)
-            is_broken = event < first .or. event > last
-            if (.not. is_square .and. is_broken) text = setting(key_pressure_event_ms, value) &
-               & //" must lie within the trace, "//range_in_ms(first, last)
-         case (end_in_trace)
-            is_broken = finish <= first .or. finish > last
-            if (.not. is_square .and. is_broken) text = setting(key_run_t_end_ms, value) &
-               & //" must lie within the trace, "//range_in_ms(first, last)
          case (few_periods)
-            is_broken = finish > most_periods*value(key_pressure_period_ms)
-            if (is_square .and. is_broken) text = setting(key_run_t_end_ms, value)//" is more than " &
+            if (finish > most_periods*period) text = setting(key_run_t_end_ms, value)//" is more than " &
                & //to_text(nint(most_periods))//" times "//setting(key_pressure_period_ms, value)
          case (event_not_negative)
-            if (is_square .and. event < 0.0_wp) text = setting(key_pressure_event_ms, value) &
+            if (event < 0.0_wp) text = setting(key_pressure_event_ms, value) &
                & //": must be >= 0 with a square wave, which starts at 0"
+         case (event_in_trace)
+            if (event < first .or. event > last) text = setting(key_pressure_event_ms, value) &
+               & //" must lie within the trace, "//range_in_ms(first, last)
+         case (end_in_trace)
+            if (finish <= first .or. finish > last) text = setting(key_run_t_end_ms, value) &
+               & //" must lie within the trace, "//range_in_ms(first, last)
          case (tip_is_round)
             overhang = 0.5_wp*(value(key_reed_width_mm) - value(key_reed_hole_diameter_mm))
-            is_broken = abs(value(key_reed_b_mm) - overhang) > 1.0e-6_wp*value(key_reed_width_mm) .or. .not. overhang > 0.0_wp
-            if (is_film .and. is_broken) text = setting(key_reed_b_mm, value)//": the film models need a tip concentric with" &
-               & //" the hole, b = (width - hole diameter)/2 = "//to_text(1.0e3_wp*overhang, 6)//" mm > 0"
+            if (.not. is_film) return
+            if (overhang > 0.0_wp .and. abs(value(key_reed_b_mm) - overhang) <= 1.0e-6_wp*overhang) return
+            text = setting(key_reed_b_mm, value)//": the film models need a tip concentric with the hole," &
+               & //" b = (width - hole diameter)/2 = "//to_text(1.0e3_wp*overhang, 6)//" mm, > 0"
          case (film_load)
-            is_broken = nint(value(key_hydro_load)) == load_published
-            if (is_film .and. is_broken) text = setting(key_hydro_load, value)//" is a reading of the lumped models;" &
-               & //" the film models take 'maali', 'sader' or 'none'"
+            if (is_film .and. nint(value(key_hydro_load)) == load_published) text = setting(key_hydro_load, value) &
+               & //" is a reading of the lumped models; the film models take 'maali', 'sader' or 'none'"
          case (event_before_end)
             if (event >= finish) text = setting(key_run_t_end_ms, value)//" ends the run before closing starts at " &
                & //to_text(1.0e3_wp*event, 6)//" ms; no closing is measured"
@@ -228,9 +220,9 @@ contains
       first = 0.0_wp
       last = huge(1.0_wp)
       file = nint(value(key_pressure_file))
-      if (nint(value(key_pressure_kind)) /= kind_trace .or. file < 1 .or. file > size(deck%trace)) return
+      if (file < 1 .or. file > size(deck%trace)) return
       associate (time => deck%trace(file)%time)
-         if (size(time) == 0) return
+         if (size(time) == 0) return   ! its faults have been told
          first = time(1)
          last = time(size(time))
       end associate

@@ -54,8 +54,9 @@ contains
             cycle
          end if
          call check_repeated_group(draft, g)
-         if (draft%scan%group(g)%is_empty .and. group /= "sweep" .and. group /= "design") &
-            & call draft%warn(draft%scan%group(g)%name, "&"//group//" is empty")
+         if (draft%scan%group(g)%is_empty .and. group /= "sweep" .and. group /= "design") then
+            call draft%warn(draft%scan%group(g)%name, "&"//group//" is empty")
+         end if
          do e = draft%scan%group(g)%first_entry, draft%scan%group(g)%last_entry
             call find_entry(draft, group, draft%scan%group(g)%first_entry, e)
          end do
@@ -121,8 +122,7 @@ contains
 
       allocate(list(0))
       do key = 1, n_rows
-         if (key == 1 .or. keys(key)%group /= keys(max(1, key - 1))%group) &
-            & call append_text(list, trim(keys(key)%group))
+         if (all(keys(:key - 1)%group /= keys(key)%group)) call append_text(list, trim(keys(key)%group))
       end do
    end function names_of_groups
 

@@ -38,8 +38,9 @@ contains
       logical :: is_square
 
       is_square = nint(value(key_pressure_kind)) == kind_square
-      if (nint(value(key_run_start)) == start_by_kind) &
-         & value(key_run_start) = real(merge(start_rest, start_equilibrium, is_square), wp)
+      if (nint(value(key_run_start)) == start_by_kind) then
+         value(key_run_start) = real(merge(start_rest, start_equilibrium, is_square), wp)
+      end if
       if (is_square .and. ieee_is_nan(value(key_run_t_end_ms))) value(key_run_t_end_ms) = square_wave_end
    end subroutine default_by_kind
 
@@ -78,18 +79,15 @@ contains
       end do
       if (draft%is_bad(key)) return
       if (key == key_run_model) call check_models(draft, e, axis%value)
-      if (key == key_film_fields_ms) then
+      if (keys(key)%kind == text_key) then
+         call take_text(draft, e, key)
+      else if (key == key_film_fields_ms) then
          call check_rising(draft, e, axis%value)
          draft%deck%fields = axis
-         return
-      end if
-      select case (keys(key)%kind)
-      case (text_key)
-         call take_text(draft, e, key)
-      case default
+      else
          draft%deck%value(key) = axis%value(1)
          if (n > 1) call draft%add_axis(axis)
-      end select
+      end if
    end subroutine read_setting
 
    !> What somebody who gives a list where one value is due may have wanted.
@@ -146,13 +144,10 @@ contains
       integer :: place
 
       text = draft%scan%reader%word_text(draft%value_word(e, 1))
-      select case (key)
-      case (key_run_title)
-         draft%deck%title = text
-      case (key_pressure_file)
-         call name_trace(draft, text, draft%scan%file, draft%deck%line(key), draft%deck%column(key), place)
-         draft%deck%value(key) = real(place, wp)
-      end select
+      if (key == key_run_title) draft%deck%title = text
+      if (key /= key_pressure_file) return
+      call name_trace(draft, text, draft%scan%file, draft%deck%line(key), draft%deck%column(key), place)
+      draft%deck%value(key) = real(place, wp)
    end subroutine take_text
 
 end module rv_deck_settings

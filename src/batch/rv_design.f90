@@ -89,8 +89,9 @@ contains
       do i = 1, reader%fields
          call find_swept_key(reader%word(i), key, trouble)
          if (trouble == "" .and. any(draft%deck%design_key == key)) trouble = "a second column of this key"
-         if (trouble == "" .and. key == key_run_model .and. size(draft%deck%axis) > 0) &
-            & trouble = "the deck lists several models in &run; name them in one place only"
+         if (trouble == "" .and. key == key_run_model .and. size(draft%deck%axis) > 0) then
+            trouble = "the deck lists several models in &run; name them in one place only"
+         end if
          draft%deck%design_key = [draft%deck%design_key, key]
          if (trouble == "") then
             call draft%mark(key, name)
@@ -120,8 +121,9 @@ contains
          rows = rows + 1
          call read_row(draft, reader, path, value(:, rows), is_first=rows == 1)
       end do
-      if (rows == 0 .and. draft%faults%errors() == before) &
-         & call draft%faults%add(path, 0, 0, "there are no rows of data")
+      if (rows == 0 .and. draft%faults%errors() == before) then
+         call draft%faults%add(path, 0, 0, "there are no rows of data")
+      end if
       draft%deck%design = value(:, :rows)
    end subroutine read_rows
 

@@ -103,6 +103,8 @@ contains
          end do
       case (text_key)
          text = "a text of at most "//to_text(nint(keys(key)%highest))//" bytes"
+      case default
+         text = "one value or several of the key's kind"
       end select
    end function allowed_text
 

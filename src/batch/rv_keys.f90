@@ -298,7 +298,6 @@ contains
       real(wp), intent(in) :: value   !! as in a vector of values
       character(len=:), allocatable :: text
 
-      text = ""
       select case (keys(key)%kind)
       case (choice_key)
          text = choice_name(key, nint(value))
@@ -307,7 +306,10 @@ contains
       case (integer_key)
          text = to_text(nint(value))
       case (real_key)
+         text = ""
          if (.not. ieee_is_nan(value)) text = to_text(from_si(key, value))
+      case default
+         text = ""
       end select
    end function value_text
 

@@ -145,25 +145,12 @@ contains
       do quantity = quantities, 1, -1
          if (index(name, trim(quantity_name(quantity))) /= 1) cycle
          unit = merge("t ", "p ", quantity == is_time)//name(len_trim(quantity_name(quantity)) + 1:)
-         select case (unit)
-         case ("t s", "p pa")
-            return
-         case ("t ms")
-            divide = 1.0e3_wp
-            return
-         case ("t us")
-            divide = 1.0e6_wp
-            return
-         case ("p kpa")
-            multiply = 1.0e3_wp
-            return
-         case ("p bar")
-            multiply = 1.0e5_wp
-            return
-         case ("p mpa")
-            multiply = 1.0e6_wp
-            return
-         end select
+         if (unit == "t ms") divide = 1.0e3_wp
+         if (unit == "t us") divide = 1.0e6_wp
+         if (unit == "p kpa") multiply = 1.0e3_wp
+         if (unit == "p bar") multiply = 1.0e5_wp
+         if (unit == "p mpa") multiply = 1.0e6_wp
+         if (unit == "t s" .or. unit == "p pa" .or. multiply > 1.0_wp .or. divide > 1.0_wp) return
       end do
    end subroutine find_quantity
 
