@@ -53,7 +53,7 @@ contains
          & 2.0_wp*sum(hole%weight*first(plate%mode_values(hole%x, hole%y)))/mm**2, 5.9277_wp, 2.0e-3_wp, 0.0_wp)
       rich = plate_with(paper_form(), nu, 2, 16, 8)
       call suite%close("stiffness with 16 x 8 terms [N/m]", rigidity*rich%hole_stiffness, 3118.5_wp, 5.0e-5_wp, 0.0_wp)
-      call suite%close("8 x 4 terms are within 0.05 % of them", plate%hole_stiffness/rich%hole_stiffness, 1.0_wp, 0.0_wp, 5.0e-4_wp)
+      call suite%close("8 x 4 terms over them", plate%hole_stiffness/rich%hole_stiffness, 1.0_wp, 0.0_wp, 5.0e-4_wp)
       plate = plate_with(paper_form(), 0.0_wp, 1)
       call suite%close("hole-load stiffness at nu = 0 [N/m]", rigidity*(1.0_wp - nu**2)*plate%hole_stiffness, 2967.4_wp, &
          & 2.0e-3_wp, 0.0_wp)
