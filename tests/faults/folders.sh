@@ -77,7 +77,7 @@ same whole trial
 printf 'film.gap_mm\n' >plan.csv
 awk 'BEGIN { for (i = 1; i <= 400; i++) print 0.05 + i*1e-4 }' >>plan.csv
 mv deck.nml aside.nml
-printf "&run block_size = 30 /\n&solver rtol = 1.0e-10 /\n&design file = 'plan.csv' /\n" >deck.nml
+printf "&run block_size = 30 /\n&solver rtol = $rtol /\n&design file = 'plan.csv' /\n" >deck.nml
 stop_midway design KILL 1
 echo 0.2 >>plan.csv
 expect 2 'a file that the deck names was changed since' run deck.nml -o design --resume
