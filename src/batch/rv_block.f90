@@ -8,8 +8,10 @@ module rv_block
    use, intrinsic :: ieee_arithmetic, only : ieee_is_nan, ieee_value, ieee_quiet_nan
    use rv_kinds, only : wp, i8
    use rv_error, only : error_type
+   use rv_case_facts, only : case_facts
    use rv_cases, only : deck_type
    use rv_columns, only : column_type, measure_columns, fact_columns, trace_columns, n_facts, n_traces, n_lumped_traces
+   use rv_film_case, only : planform_cache, planform_key, n_planform, mesh_nodes
    use rv_keys, only : n_keys, model_film, model_film_table, key_film_mesh, &
       & key_run_model, key_run_start, key_run_t_end_ms, key_run_traces, &
       & key_run_trace_dt_ms, key_run_block_size, key_film_gap_mm, key_film_vapour_pressure_kpa, &
@@ -22,8 +24,7 @@ module rv_block
    use rv_sort, only : sorted_order
    use rv_status, only : status_ok, status_bad_case, warn_cavitation
    use rv_text, only : text_type, to_text
-   use rv_valve_case, only : planform_cache, case_facts, new_case_lanes, new_history, settings_of, planform_key, n_planform, &
-      & mesh_nodes
+   use rv_valve_case, only : new_case_lanes, new_history, settings_of
    use rv_valve_lanes, only : valve_lanes
    implicit none
    private

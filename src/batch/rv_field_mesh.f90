@@ -9,7 +9,7 @@ module rv_field_mesh
    use rv_film_mesh, only : film_mesh, new_film_mesh
    use rv_keys, only : n_keys, key_film_mesh, key_reed_a_mm, key_reed_b_mm, key_reed_hole_diameter_mm, key_reed_width_mm
    use rv_planform, only : planform_type, new_planform
-   use rv_valve_case, only : elements_around, elements_across
+   use rv_film_case, only : elements_around, elements_across
    implicit none
    private
    public :: field_mesh, deck_field_mesh

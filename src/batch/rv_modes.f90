@@ -14,7 +14,7 @@ module rv_modes
    use rv_reynolds, only : film_state
    use rv_text, only : to_text
    use rv_text_builder, only : text_builder
-   use rv_valve_case, only : film_of_case
+   use rv_film_case, only : film_of_case
    implicit none
    private
    public :: modes_text

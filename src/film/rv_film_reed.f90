@@ -15,7 +15,7 @@ module rv_film_reed
    private
    public :: film_reed, new_film_reed, fluid_matrices
 
-   integer, parameter :: points = 24  !! quadrature points a direction for integrals over reed and hole
+   integer, parameter :: points = 12  !! quadrature points a direction over reed and hole: exact to degree 23, two shapes have 18
 
    !> The modes' film and the static shape's film.
    type :: film_reed
@@ -27,8 +27,8 @@ module rv_film_reed
       real(wp) :: hole_area = 0.0_wp              !! pi D^2/4 [m2]
       real(wp), allocatable :: land_weight(:)     !! int shape function dA over the whole land [m2], (nodes)
       real(wp), allocatable :: root_weight(:)     !! the same over part A, x < a
-      type(point_set), private :: reed            !! quadrature points of the half reed
-      real(wp), allocatable, private :: phi(:, :) !! modes, then the static shape there (points, modes + 1)
+      real(wp), allocatable, private :: chord(:)     !! widths of the reed at the quadrature points, each once [m]
+      real(wp), allocatable, private :: gram(:, :, :) !! int phi_i phi_j dA where it is that wide [m2]; last the static shape
    end type film_reed
 
 contains
@@ -63,12 +63,35 @@ contains
          self%hole_area = pi*form%hole_radius**2
          self%land_weight = 2.0_wp*land_weights(mesh, form, 2.0_wp*form%length)
          self%root_weight = 2.0_wp*land_weights(mesh, form, form%root)
-         self%reed = reed_points(form, points)
-         allocate(self%phi(size(self%reed%x), modes + 1))
-         self%phi(:, :modes) = plate%mode_values(self%reed%x, self%reed%y)
-         self%phi(:, modes + 1:) = plate%static_values(self%reed%x, self%reed%y)
       end associate
+      call sort_by_chord(self)
    end subroutine new_film_reed
+
+   !> The products of the shapes over the whole reed, apart by the reed's local width.
+   subroutine sort_by_chord(self)
+      type(film_reed), intent(inout) :: self
+      type(point_set) :: reed
+      real(wp), allocatable :: phi(:, :)
+      integer :: k, j, n
+
+      reed = reed_points(self%plate%form, points)
+      n = self%plate%modes + 1
+      allocate(phi(size(reed%x), n))
+      phi(:, :n - 1) = self%plate%mode_values(reed%x, reed%y)
+      phi(:, n:) = self%plate%static_values(reed%x, reed%y)
+      self%chord = [real(wp) ::]
+      do k = 1, size(reed%chord)
+         if (all(abs(self%chord - reed%chord(k)) > 0.0_wp)) self%chord = [self%chord, reed%chord(k)]
+      end do
+      allocate(self%gram(n, n, size(self%chord)), source=0.0_wp)
+      do k = 1, size(reed%chord)
+         associate (gram => self%gram(:, :, minloc(abs(self%chord - reed%chord(k)), 1)))
+            do j = 1, n
+               gram(:, j) = gram(:, j) + 2.0_wp*reed%weight(k)*phi(k, :)*phi(k, j)
+            end do
+         end associate
+      end do
+   end subroutine sort_by_chord
 
    !> Added mass [kg] and damping [N s m-1] at angular frequency omega, for modes and static shape (last):
    !> int (pi/4) rho_f b [Gamma_r | omega Gamma_i] phi_i phi_j dA over the whole reed, b the local chord and
@@ -80,29 +103,22 @@ contains
       real(wp), intent(in) :: omega                       !! [rad s-1], > 0
       real(wp), intent(out) :: mass(:, :), damping(:, :)  !! (modes + 1, modes + 1)
       complex(wp) :: gamma
-      real(wp) :: chord, reynolds, per_area
-      integer :: k, j
+      real(wp) :: reynolds, per_area
+      integer :: k
 
       mass = 0.0_wp
       damping = 0.0_wp
       if (choice == load_none) return
-      chord = -1.0_wp
-      gamma = 0.0_wp
-      do k = 1, size(self%reed%x)
-         if (abs(self%reed%chord(k) - chord) > 0.0_wp) then
-            chord = self%reed%chord(k)
-            reynolds = 0.25_wp*fluid%density*omega*chord**2/fluid%viscosity
-            if (choice == load_sader) then
-               gamma = sader_function(reynolds)
-            else
-               gamma = maali_function(reynolds)
-            end if
+      do k = 1, size(self%chord)
+         reynolds = 0.25_wp*fluid%density*omega*self%chord(k)**2/fluid%viscosity
+         if (choice == load_sader) then
+            gamma = sader_function(reynolds)
+         else
+            gamma = maali_function(reynolds)
          end if
-         per_area = 2.0_wp*self%reed%weight(k)*0.25_wp*pi*fluid%density*chord
-         do j = 1, size(mass, 2)
-            mass(:, j) = mass(:, j) + per_area*real(gamma)*self%phi(k, :)*self%phi(k, j)
-            damping(:, j) = damping(:, j) + per_area*omega*aimag(gamma)*self%phi(k, :)*self%phi(k, j)
-         end do
+         per_area = 0.25_wp*pi*fluid%density*self%chord(k)
+         mass = mass + per_area*real(gamma)*self%gram(:, :, k)
+         damping = damping + per_area*omega*aimag(gamma)*self%gram(:, :, k)
       end do
    end subroutine fluid_matrices
 

@@ -46,7 +46,8 @@ contains
       type(fluid_type), intent(in) :: fluid
       real(wp), intent(in) :: gap                                  !! [m], > 0
       type(error_type), allocatable, intent(out) :: error
-      real(wp) :: rigidity, areal_mass, omega
+      real(wp), parameter :: tolerance = 1.0e-14_wp   !! of omega; the rounding of Sader's Gamma is some 1e-15
+      real(wp) :: rigidity, areal_mass, omega, slope, last(2)
       real(wp), dimension(reed%plate%modes + 1, reed%plate%modes + 1) :: added_mass, added_damping
       integer :: n, i, iteration
 
@@ -70,14 +71,18 @@ contains
       self%static_stiffness = rigidity*reed%plate%static_stiffness
       self%hole_stiffness = rigidity*reed%plate%hole_stiffness
       self%static_mass = areal_mass*reed%plate%static_mass
-      self%omega = sqrt(self%stiffness(1)/self%modal_mass)
-      do iteration = 1, 200   ! contracts as in rv_hydrodynamic_load
-         omega = self%omega
+      omega = sqrt(self%stiffness(1)/self%modal_mass)
+      slope = 0.0_wp
+      do iteration = 1, 50   ! secants on omega -> wet, which contracts as in rv_hydrodynamic_load
          call fluid_matrices(reed, load, fluid, omega, added_mass, added_damping)
          self%omega = sqrt(self%stiffness(1)/(self%modal_mass + added_mass(1, 1)))
-         if (abs(self%omega - omega) <= 4.0_wp*epsilon(omega)*omega) exit
+         if (abs(self%omega - omega) <= tolerance*omega) exit
+         if (iteration > 1) slope = (self%omega - last(2))/(omega - last(1))
+         last = [omega, self%omega]
+         omega = omega + (self%omega - omega)/(1.0_wp - slope)
       end do
-      if (iteration > 200) then
+      if (iteration > 50) then
+         self = film_valve()
          call fail(error, rv_not_converged, "the wet frequency of the first mode was not found")
          return
       end if
