@@ -27,8 +27,8 @@ module rv_film_reed
       real(wp) :: hole_area = 0.0_wp              !! pi D^2/4 [m2]
       real(wp), allocatable :: land_weight(:)     !! int shape function dA over the whole land [m2], (nodes)
       real(wp), allocatable :: root_weight(:)     !! the same over part A, x < a
-      real(wp), allocatable, private :: chord(:)     !! widths of the reed at the quadrature points, each once [m]
-      real(wp), allocatable, private :: gram(:, :, :) !! int phi_i phi_j dA where it is that wide [m2]; last the static shape
+      real(wp), allocatable, private :: chord(:)  !! widths of the reed at the quadrature points, each once [m]
+      real(wp), allocatable, private :: gram(:, :, :)  !! int phi_i phi_j dA where it is that wide [m2]; the static shape last
    end type film_reed
 
 contains
