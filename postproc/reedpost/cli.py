@@ -47,6 +47,8 @@ def _target(arguments: argparse.Namespace, result: Result, name: str) -> Path:
 
 def _compare(arguments: argparse.Namespace, results: list[Result]) -> int:
     from reedpost.compare import compare, terminal_text, write_tables
+    from reedpost.overview import overview_tables, write_overview
+    from reedpost.tables import as_text
 
     status = FINE
     for result in results:
@@ -56,11 +58,16 @@ def _compare(arguments: argparse.Namespace, results: list[Result]) -> int:
         write_tables(comparison, folder)
         print(f"written to {folder}\n")
         status = max(status, FINE if comparison.complete else INCOMPLETE)
+    if tables := overview_tables(results):
+        folder = _target(arguments, results[0], "compare")
+        print("== all models ==\n", *map(as_text, tables), sep="\n")
+        write_overview(tables, folder)
+        print(f"written to {folder}\n")
     return status
 
 
 def _plot(arguments: argparse.Namespace, results: list[Result]) -> int:
-    from reedpost.figures import draw
+    from reedpost.figures import draw, draw_all
 
     status = FINE
     for result in results:
@@ -70,6 +77,8 @@ def _plot(arguments: argparse.Namespace, results: list[Result]) -> int:
         for problem in album.problems:
             _complain(f"{result.folder}: {problem}")
             status = INCOMPLETE
+    for path in draw_all(results).save(_target(arguments, results[0], "plots")):
+        print(path)
     return status
 
 

@@ -9,9 +9,11 @@ from pathlib import Path
 import numpy as np
 
 from reedpost import paper
+from reedpost.field_tables import field_tables
 from reedpost.gap_study import gap_table
 from reedpost.results import Result
-from reedpost.studies import EXPERIMENT, GAP_STUDY, PRESSURE_SWEEP, Variant, studies, variants
+from reedpost.statements import parts_statements
+from reedpost.studies import EXPERIMENT, FIELDS, GAP_STUDY, PRESSURE_SWEEP, Variant, studies, variants
 from reedpost.tables import Table, as_csv, as_markdown, as_text, errors_csv
 from reedpost.time_tables import SWEEPS, experiment_table, sweep_table
 
@@ -55,22 +57,41 @@ def compare(result: Result) -> Comparison:
 
 
 def _variant_tables(variant: Variant) -> list[Table]:
-    """The tables of one variant, each with the data in which it is not the paper's valve."""
-    tables: list[Table] = []
-    other = paper.differences(variant.result, int(variant.cases[0]))
+    """The tables of one variant, each with the data in which its model's valve is not the paper's."""
+    tables: list[tuple[str, Table]] = []
     for study in studies(variant):
         if study == PRESSURE_SWEEP:
-            tables += [sweep_table(variant, key, model) for key in SWEEPS for model in variant.models]
+            tables += [(model, sweep_table(variant, key, model)) for key in SWEEPS for model in variant.models]
         elif study == GAP_STUDY:
-            tables += [gap_table(variant, model) for model in variant.models]
+            for model in variant.models:
+                tables.append((model, gap_table(variant, model)))
+                if table := parts_statements(variant, model):
+                    tables.append((model, table))
+        elif study == FIELDS:
+            models = [model for model in variant.models if model in paper.FILM_MODELS]
+            tables += [(model, table) for model in models for table in field_tables(variant, model)]
         elif study == EXPERIMENT:
-            tables += [experiment_table(variant, model) for model in variant.models]
-            gaps = variant.axis("film.gap_mm")
-            if not all(math.isclose(gap, paper.GAP_MM, rel_tol=1e-6) for gap in gaps):
-                other.append(f"film.gap_mm = {gaps[0]:g} instead of {paper.GAP_MM:g} (Sec. III A)")
-    for table in tables:
-        table.notes += ["NOT THE PAPER'S DATA AS READ HERE:", *(f"- {line}" for line in other)] if other else []
-    return tables
+            tables += [(model, experiment_table(variant, model)) for model in variant.models]
+    for model, table in tables:
+        table.notes += _data_notes(variant, model)
+    return [table for _, table in tables]
+
+
+def _data_notes(variant: Variant, model: str) -> list[str]:
+    """What a model's cases were given that is not the paper's, and what the paper does not know."""
+    result, case = variant.result, int(variant.cases_of(model)[0])
+    other = paper.differences(result, case)
+    if EXPERIMENT in studies(variant):
+        gaps = variant.axis("film.gap_mm")
+        if not all(math.isclose(gap, paper.GAP_MM, rel_tol=1e-6) for gap in gaps):
+            other.append(f"film.gap_mm = {gaps[0]:g} instead of {paper.GAP_MM:g} (Sec. III A)")
+    notes = ["NOT THE PAPER'S DATA AS READ HERE:", *(f"- {line}" for line in other)] if other else []
+    if model in paper.FILM_MODELS:
+        load = result.value("hydro.load", case) or "the model's own"
+        edge = result.value("film.edge_elongation", case)
+        edge = f"{edge:g}" if isinstance(edge, float) else "unknown"
+        notes.append(f"Nothing is fitted: no k_a, no k_s. Hydrodynamic load: {load}; edge elongation: {edge}.")
+    return notes
 
 
 def _other_failures(result: Result, tables: list[Table]) -> list[str]:
@@ -87,14 +108,20 @@ def _other_failures(result: Result, tables: list[Table]) -> list[str]:
 
 
 def _warnings(result: Result) -> list[str]:
-    """How many cases carry a warning, with the first one's text."""
+    """How many cases carry each warning, with the first one's text."""
     if "warnings" not in result.dataset:
         return []
-    warned = np.flatnonzero(result.measure("warnings"))
-    if not len(warned):
-        return []
-    text = result.message(int(warned[0])) or "no text"
-    return [f"{len(warned)} of {result.count} cases carry a warning; case {warned[0] + 1}: {text}"]
+    attributes = result.dataset["warnings"].attrs
+    masks = np.atleast_1d(attributes.get("flag_masks", [])).astype(int)
+    names = str(attributes.get("flag_meanings", "")).split()
+    flags = result.measure("warnings").astype(int)
+    lines = []
+    for mask, name in zip(masks.tolist(), names, strict=False):
+        warned = np.flatnonzero(flags & mask)
+        if len(warned):
+            text = result.message(int(warned[0])) or "no text"
+            lines.append(f"{len(warned)} of {result.count} cases carry the warning {name}; case {warned[0] + 1}: {text}")
+    return lines
 
 
 def terminal_text(comparison: Comparison) -> str:

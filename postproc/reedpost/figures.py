@@ -3,18 +3,19 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
-from pathlib import Path
 
 import numpy as np
-from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from reedpost import paper
+from reedpost import film_mesh, paper
+from reedpost.film_figures import field_picture, models_picture, parts_picture
 from reedpost.gap_study import closing_event_ms
+from reedpost.overview import all_series
+from reedpost.picture import Album, Picture
 from reedpost.results import Result
 from reedpost.studies import (
     EXPERIMENT,
+    FIELDS,
     GAP_STUDY,
     PRESSURE_SWEEP,
     Variant,
@@ -22,30 +23,11 @@ from reedpost.studies import (
     trace_case,
     variants,
 )
-from reedpost.style import BLACK, GREY, SERIES, in_style, look, new_figure, save
+from reedpost.style import BLACK, BLUE, GREY, SERIES, in_style, look, new_figure
 from reedpost.time_tables import SWEEPS
 
 
-@dataclass
-class Picture:
-    """A finished figure with the words that go with it."""
-
-    name: str  # file name without ending
-    caption: str
-    figure: Figure
-
-
-@dataclass
-class Album:
-    """The pictures of one result, and what could not be drawn."""
-
-    pictures: list[Picture] = field(default_factory=list)
-    problems: list[str] = field(default_factory=list)
-
-    def save(self, folder: Path) -> list[Path]:
-        """Write every picture as PNG and SVG."""
-        folder.mkdir(parents=True, exist_ok=True)
-        return [path for picture in self.pictures for path in save(picture.figure, folder / picture.name)]
+MOST_FIELDS = 6  # pictures of pressure fields
 
 
 def draw(result: Result) -> Album:
@@ -62,9 +44,28 @@ def draw(result: Result) -> Album:
                 _draw_sweep(variant, album)
             elif study == GAP_STUDY:
                 _draw_gaps(variant, album)
+            elif study == FIELDS:
+                _draw_fields(variant, album)
             elif study == EXPERIMENT:
                 album.pictures.append(experiment_picture(variant, album.problems))
     return album
+
+
+def draw_all(results: list[Result]) -> Album:
+    """What several results show together."""
+    with in_style():
+        picture = models_picture(all_series(results))
+    return Album([picture] if picture else [])
+
+
+def _draw_fields(variant: Variant, album: Album) -> None:
+    result = variant.result
+    cases = [case for case in variant.cases.tolist() if film_mesh.has_field(result, case)]
+    if len(cases) > MOST_FIELDS:
+        album.problems.append(f"{len(cases)} cases hold pressure fields; only the first {MOST_FIELDS} are drawn")
+    album.pictures += [field_picture(result, case) for case in cases[:MOST_FIELDS]]
+    if not cases:
+        album.problems.append("no pressure field to draw: no film model succeeded")
 
 
 def _draw_sweep(variant: Variant, album: Album) -> None:
@@ -166,6 +167,9 @@ def times_picture(variant: Variant, problems: list[str]) -> Picture:
                     inlet, [row[f"{published}_ms"] for row in rows], color=kind.color, ls="",
                     marker=kind.marker, mfc="white", label=f"{kind.label}, published",
                 )  # fmt: skip
+        if not any(model in paper.PUBLISHED for model in variant.models):
+            axes.plot(inlet, [row["proposed_ms"] for row in rows], color=BLUE, ls="", marker="o", mfc="white",
+                      label="paper's model")  # fmt: skip
         axes.plot(
             inlet, [row["fea_ms"] for row in rows], color=BLACK, ls="", marker="x", mew=1.2,
             label="finite elements",
@@ -208,7 +212,9 @@ def _draw_gaps(variant: Variant, album: Album) -> None:
         album.problems.append("no histories of the gap study to draw: run with traces = .true.")
         return
     for model in variant.models:
-        if model != "traditional":
+        if variant.result.has_parts(int(variant.cases_of(model)[0])):
+            album.pictures.append(parts_picture(variant, model, album.problems))
+        elif model != "traditional":
             album.pictures.append(gap_picture(variant, model, album.problems))
 
 

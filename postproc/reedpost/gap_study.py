@@ -25,6 +25,7 @@ COLUMNS = [
     Column("peak_squeeze_n", "peak film", "N", ".4f"),
 ]
 TAKES_OVER = Column("film_exceeds_hole_ms", "film > hole", "ms", ".2f")  # needs traces
+PARTS_TAKE_OVER = [Column(f"{p}_exceeds_c_ms", f"{p.upper()} > C", "ms", ".2f") for p in "ab"]  # film models
 MEASURES = ("steady_mm", "fall_ms", "closing_ms", "undershoot_mm")
 
 
@@ -35,6 +36,12 @@ def closing_event_ms(result: Result, case: int) -> float:
         return event
     period, ramp = (float(result.value(f"pressure.{k}_ms", case)) for k in ("period", "transition"))
     return 0.5 * (period - ramp)
+
+
+def closing_window(result: Result, case: int) -> np.ndarray:
+    """Which stored times lie between the closing event and the next rise of a square wave."""
+    time, event, period = result.time(), closing_event_ms(result, case), result.value("pressure.period_ms", case)
+    return (time >= event) & (time < event + (0.5 * period if isinstance(period, float) else np.inf))
 
 
 def film_exceeds_hole_ms(result: Result, case: int) -> float:
@@ -49,13 +56,30 @@ def film_exceeds_hole_ms(result: Result, case: int) -> float:
     return float(time[ramp][above[0]]) if len(above) else math.nan
 
 
+def part_exceeds_hole_ms(result: Result, case: int, part: str) -> float:
+    """When the force on part 'a' or 'b' first exceeds that on part C, the hole [ms]; NaN if never.
+
+    Looked for during the pressure ramp, as for film_exceeds_hole_ms, and between the stored times.
+    """
+    time, event = result.time(), closing_event_ms(result, case)
+    ramp = (time >= event) & (time <= event + float(result.value("pressure.transition_ms", case)))
+    time, excess = time[ramp], (result.trace(f"part_{part}_n", case) - result.trace("part_c_n", case))[ramp]
+    after = np.flatnonzero((excess[:-1] <= 0.0) & (excess[1:] > 0.0))
+    if not len(after):
+        return math.nan
+    i = after[0]
+    return float(time[i] - excess[i] * (time[i + 1] - time[i]) / (excess[i + 1] - excess[i]))
+
+
 def gap_table(variant: Variant, model: str) -> Table:
     """The gap study for one model."""
     result = variant.result
+    parts = result.has_parts(int(variant.cases_of(model)[0]))
+    takes_over = PARTS_TAKE_OVER if parts else [TAKES_OVER] if result.has_traces else []
     table = Table(
         name=f"gap_study_{model}",
         title=f"Gap study at {paper.GAP_STUDY_KPA:g} kPa: {model} model",
-        columns=[*COLUMNS, TAKES_OVER] if result.has_traces else COLUMNS,
+        columns=[*COLUMNS, *takes_over],
     )
     for gap in _gaps(variant, table):
         case = variant.find(model, paper.GAP_STUDY_KPA, gap)
@@ -67,11 +91,16 @@ def gap_table(variant: Variant, model: str) -> Table:
             values = [measured(result, case, name, what, table) for name in MEASURES]
             cells = [gap, *values, 100 * number(values[3]) / number(values[0])]
             cells += [float(result.measure("peak_squeeze_n")[case])]
-            cells += [film_exceeds_hole_ms(result, case)] if result.has_traces else []
+            if parts:
+                cells += [part_exceeds_hole_ms(result, case, part) for part in "ab"]
+            elif takes_over:
+                cells.append(film_exceeds_hole_ms(result, case))
         table.rows.append(cells)
     table.notes.append("Finite elements at gap 0.05 mm: steady 0.0951 mm, fall 1.42 ms, closing 3.88 ms (Table I).")
     if model == "traditional":
         table.notes.append("This model has no film, so the gap does not act on it.")
+    elif parts:
+        table.notes.append("A > C, B > C: when the force on the land's part A or B first exceeds that on the hole, C.")
     else:
         table.notes += _findings(variant, model)
     return table

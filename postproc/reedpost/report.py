@@ -10,7 +10,8 @@ import numpy as np
 from reedpost import __version__
 from reedpost.compare import compare
 from reedpost.discrepancies import DISCREPANCIES
-from reedpost.figures import Picture, draw
+from reedpost.figures import draw, draw_all
+from reedpost.picture import Picture
 from reedpost.results import Result
 from reedpost.style import svg_bytes
 from reedpost.tables import as_html
@@ -24,6 +25,7 @@ h3 { margin-bottom: .4rem; }
 .wide { overflow-x: auto; }
 table { border-collapse: collapse; font-variant-numeric: tabular-nums; font-size: .9rem; }
 th, td { padding: .15rem .6rem; text-align: right; white-space: nowrap; }
+.words { text-align: left; white-space: normal; }
 th { vertical-align: bottom; } thead, tfoot { border-top: 1px solid #111; border-bottom: 1px solid #111; }
 table.facts th, table.facts td { text-align: left; vertical-align: top; white-space: normal; }
 .notes { font-size: .9rem; margin-top: .4rem; } .bad { color: #a03000; font-weight: 600; }

@@ -68,6 +68,16 @@ class Result:
         """Whether displacement histories were stored."""
         return "time_ms" in self.dataset and "displacement_mm" in self.dataset
 
+    @property
+    def has_fields(self) -> bool:
+        """Whether pressure fields of the film were stored."""
+        return "film_pressure_kpa" in self.dataset
+
+    def has_parts(self, case: int) -> bool:
+        """Whether the forces on the reed's parts were stored; lumped models have none."""
+        name = "part_a_n"
+        return self.has_traces and name in self.dataset and bool(np.isfinite(self.trace(name, case)).any())
+
     def value(self, key: str, case: int) -> Value | list[Value] | None:
         """Effective value of a key in one case, in the deck's unit; None if unknown."""
         if key in self.swept:

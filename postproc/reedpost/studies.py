@@ -16,7 +16,8 @@ from reedpost import paper
 from reedpost.results import Result
 
 AXES = ("pressure.inlet_kpa", "film.gap_mm", "pressure.file")  # what the studies sweep
-PRESSURE_SWEEP, GAP_STUDY, EXPERIMENT = "pressure sweep", "gap study", "experiment"
+PRESSURE_SWEEP, GAP_STUDY, EXPERIMENT, FIELDS = "pressure sweep", "gap study", "experiment", "fields"
+FIELD_GAPS_MM = (0.05, 0.20)  # Figs. 6 and 7; fields at no more gaps than these are not the gap study
 RATE_TOLERANCE = 0.5  # Table V prints the fall rates as whole kPa/ms
 
 
@@ -80,10 +81,10 @@ def studies(variant: Variant) -> list[str]:
         return [EXPERIMENT]
     pressures = variant.axis("pressure.inlet_kpa")
     gaps = variant.axis("film.gap_mm")
-    found = []
-    if len(pressures) > 1 or len(gaps) < 2:
+    found = [FIELDS] if variant.result.has_fields else []
+    if len(pressures) > 1 or (len(gaps) < 2 and not found):
         found.append(PRESSURE_SWEEP)
-    if len(gaps) > 1:
+    if len(gaps) > (len(FIELD_GAPS_MM) if FIELDS in found else 1):
         found.append(GAP_STUDY)
     return found
 

@@ -20,6 +20,7 @@ class Column:
     head: str  # what readers see
     unit: str  # what readers see below it
     form: str  # format of a number, e.g. '.2f' or '+.1f'
+    words: bool = False  # holds words, which start at the left
 
 
 @dataclass(frozen=True)
@@ -89,10 +90,14 @@ def as_text(table: Table) -> str:
     widths = [max(map(len, texts)) for texts in zip(*heads, *body, *foot, strict=True)]
 
     def line(texts: list[str]) -> str:
-        cells = (text.rjust(width) for text, width in zip(texts, widths, strict=True))
+        cells = (
+            text.ljust(width) if column.words else text.rjust(width)
+            for text, width, column in zip(texts, widths, table.columns, strict=True)
+        )
         return "  ".join(cells).rstrip()
 
     rule = "-" * (sum(widths) + 2 * (len(widths) - 1))
+    heads = heads if any(heads[1]) else heads[:1]
     lines = [table.title, rule, *map(line, heads), rule, *map(line, body)]
     lines += [rule, *map(line, foot)] if foot else [rule]
     lines += [remark for note in table.notes for remark in _wrap(note)]
@@ -103,7 +108,7 @@ def as_text(table: Table) -> str:
 def as_markdown(table: Table) -> str:
     """A Markdown section with the table, its remarks and its problems."""
     heads = [f"{c.head} [{c.unit}]" if c.unit else c.head for c in table.columns]
-    rows = [heads, ["---:"] * len(heads), *_texts(table, table.rows), *_texts(table, table.footer)]
+    rows = [heads, [":---" if c.words else "---:" for c in table.columns], *_texts(table, table.rows), *_texts(table, table.footer)]
     lines = [f"## {table.title}", ""]
     lines += ["| " + " | ".join(text.replace("|", "\\|") for text in row) + " |" for row in rows]
     lines += [""] if table.notes or table.problems else []
@@ -131,11 +136,15 @@ def as_csv(table: Table) -> str:
 def as_html(table: Table) -> str:
     """A figure element with the table, its remarks and its problems."""
 
+    starts = [' class="words"' if c.words else "" for c in table.columns]
+
     def row(texts: list[str], tag: str) -> str:
-        return "<tr>" + "".join(f"<{tag}>{html.escape(t)}</{tag}>" for t in texts) + "</tr>"
+        cells = (f"<{tag}{at}>{html.escape(t)}</{tag}>" for t, at in zip(texts, starts, strict=True))
+        return f"<tr>{''.join(cells)}</tr>"
 
     heads = [
-        f"<th>{html.escape(c.head)}<br><small>{html.escape(c.unit) or '&nbsp;'}</small></th>" for c in table.columns
+        f"<th{at}>{html.escape(c.head)}<br><small>{html.escape(c.unit) or '&nbsp;'}</small></th>"
+        for c, at in zip(table.columns, starts, strict=True)
     ]
     parts = [f"<h3>{html.escape(table.title)}</h3>", '<div class="wide"><table>']
     parts += [f"<thead><tr>{''.join(heads)}</tr></thead>", "<tbody>"]

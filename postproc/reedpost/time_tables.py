@@ -49,8 +49,8 @@ def _cells(row: dict[str, float], target: str, published: str | None, ours: Cell
     return [aim, theirs, percent(theirs, aim), ours, *errors]
 
 
-def _add_errors(table: Table, what: str) -> None:
-    """Largest and root-mean-square error of every column of errors."""
+def add_errors(table: Table, what: str) -> None:
+    """Add a footer: largest and root-mean-square error of every column of errors."""
     largest: list[Cell] = ["largest", *[None] * (len(table.columns) - 1)]
     rms: list[Cell] = ["RMS", *[None] * (len(table.columns) - 1)]
     for i, column in enumerate(table.columns):
@@ -82,7 +82,7 @@ def sweep_table(variant: Variant, key: str, model: str) -> Table:
         else:
             ours = measured(variant.result, case, measure, f"{model}, {pressure:g} kPa", table)
         table.rows.append([pressure, *_cells(row, FEA, published, ours)])
-    _add_errors(table, f"{quantity}, {model}")
+    add_errors(table, f"{quantity}, {model}")
     scatter = paper.mesh_scatter(measure)
     low, high = scatter.percent
     table.notes += [
@@ -129,7 +129,7 @@ def experiment_table(variant: Variant, model: str) -> Table:
                 table.notes.append(f"Condition {condition} is known by its file only: {match.file}.")
         cells = _cells(row, EXPERIMENT, published, ours)
         table.rows.append([float(condition), row["rate_kpa_per_ms"], *cells])
-    _add_errors(table, f"closing time (u = 0), {model}")
+    add_errors(table, f"closing time (u = 0), {model}")
     table.notes.append(
         "The measured traces are not published; these are reconstructed from the fall rates "
         "such that the traditional model closes at its published time."

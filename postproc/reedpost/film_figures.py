@@ -1,0 +1,173 @@
+"""Pictures of the film models: pressure fields, forces on the reed's parts, all models against pressure."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from matplotlib.cm import ScalarMappable
+from matplotlib.colors import BoundaryNorm
+from matplotlib.lines import Line2D
+from matplotlib.patches import Circle
+from matplotlib.path import Path as Outline
+from matplotlib.patches import PathPatch
+from matplotlib.ticker import MaxNLocator
+
+from reedpost import film_mesh, paper
+from reedpost.film_mesh import Planform
+from reedpost.gap_study import closing_event_ms
+from reedpost.overview import FEWEST, Series
+from reedpost.picture import Picture
+from reedpost.results import Result
+from reedpost.studies import Variant
+from reedpost.style import BLACK, BLUE, GREEN, GREY, VERMILLION, look, new_figure
+from reedpost.time_tables import SWEEPS
+
+MAP = "viridis"  # perceptually uniform, and told apart in grey
+LEVELS = 16  # of pressure, at most
+PARTS = (("a", "A, land at the root", BLACK, "-"), ("b", "B, rest of the land", GREEN, (0, (5, 1, 1, 1))),
+         ("c", "C, over the hole", BLUE, (0, (4, 1.5))))  # fmt: skip
+
+
+def field_picture(result: Result, case: int) -> Picture:
+    """Film pressure on the whole reed at the stored times (Figs. 6 and 7)."""
+    times, form = film_mesh.field_times(result), film_mesh.planform(result, case)
+    mesh = film_mesh.whole_reed(result, case)
+    inlets = [film_mesh.inlet_kpa(result, case, time) for time in times.tolist()]
+    values = [mesh.values(film_mesh.field(result, case, i), p) for i, p in enumerate(inlets)]
+    levels = MaxNLocator(LEVELS, steps=[1, 2, 2.5, 5, 10]).tick_values(
+        min(0.0, *(float(np.nanmin(v)) for v in values)), max(float(np.nanmax(v)) for v in values)
+    )
+    columns = min(3, len(times))
+    rows = math.ceil(len(times) / columns)
+    figure, grid = new_figure(31.0 * rows + 16.0, rows, columns, sharex=True, sharey=True)
+    triangles = np.concatenate([mesh.quads[:, [0, 1, 2]], mesh.quads[:, [0, 2, 3]]])
+    norm, hues = BoundaryNorm(levels, 256), MAP
+    for axes, time, inlet, value in zip(grid.flat, times, inlets, values, strict=False):
+        filled = axes.tricontourf(mesh.x, mesh.y, triangles, value, levels=levels, norm=norm, cmap=hues)
+        filled.set_edgecolor("face")  # no hairlines between the bands in SVG
+        filled.set_linewidth(0.2)
+        color = ScalarMappable(norm, hues).to_rgba(inlet)
+        axes.add_patch(Circle((form.centre, 0.0), form.hole_radius, facecolor=color, edgecolor="white", lw=0.8))
+        axes.add_patch(PathPatch(_outline(form), facecolor="none", edgecolor=BLACK, lw=0.8))
+        axes.plot([0.0, 0.0], [-form.half_width, form.half_width], color=BLACK, lw=2.2, solid_capstyle="butt")
+        axes.set_title(f"{time:g} ms", pad=11)
+        axes.annotate(f"inlet {inlet:.3g}, highest {np.nanmax(value):.3g}", (0.5, 1.02), xycoords="axes fraction",
+                      ha="center", va="bottom", fontsize=5.5)  # fmt: skip
+        axes.set_aspect("equal")
+        axes.set_xlim(-0.3, form.length + 0.2)
+    for axes in list(grid.flat)[len(times) :]:
+        axes.set_visible(False)
+    for axes in grid[-1]:
+        axes.set_xlabel("x (mm)")
+    for axes in grid[:, 0]:
+        axes.set_ylabel("y (mm)")
+    bar = figure.colorbar(ScalarMappable(norm, hues), ax=grid, orientation="horizontal", aspect=40, shrink=0.9)
+    bar.set_label("pressure (kPa)")
+    bar.set_ticks(levels[:: max(1, len(levels) // 8)])
+    gap, pressure = (float(result.value(key, case)) for key in ("film.gap_mm", "pressure.inlet_kpa"))
+    model = str(result.model[case])
+    return Picture(
+        f"film_pressure_{model}_{1e3 * gap:.0f}um_{pressure:g}kpa".replace(".", "p"),
+        f"Pressure under the reed while it closes at {pressure:g} kPa, gap {gap:g} mm, {model} model. Thick line: the"
+        " clamp; circle: the hole, where the inlet pressure holds. The lower half mirrors the upper one.",
+        figure,
+    )
+
+
+def _outline(form: Planform) -> Outline:
+    """The reed's edge: a rectangle and a semicircle."""
+    angle = np.linspace(math.pi / 2, -math.pi / 2, 61)
+    x = np.concatenate([[0.0], form.centre + form.half_width * np.cos(angle), [0.0, 0.0]])
+    y = np.concatenate([[form.half_width], form.half_width * np.sin(angle), [-form.half_width, form.half_width]])
+    return Outline(np.column_stack([x, y]))
+
+
+def parts_picture(variant: Variant, model: str, problems: list[str]) -> Picture:
+    """Forces on parts A, B and C and the displacement while closing, one panel a gap (Fig. 8)."""
+    result, time = variant.result, variant.result.time()
+    gaps = [float(gap) for gap in variant.axis("film.gap_mm")]
+    own = [gap for gap in gaps if np.isclose(gap, paper.GAP_STUDY_MM, rtol=1e-6).any()]
+    gaps = own or gaps[: len(paper.GAP_STUDY_MM)]
+    rows = math.ceil(len(gaps) / 2)
+    figure, grid = new_figure(34.0 * rows + 18.0, rows, 2, sharex=True, sharey=True, squeeze=False)
+    mates = []
+    for number, gap in enumerate(gaps):
+        axes = grid.flat[number]
+        mate = axes.twinx()
+        mates.append(mate)
+        axes.set_title(f"gap {gap:.2f} mm", pad=3)
+        axes.set_zorder(mate.get_zorder() + 1)
+        axes.patch.set_visible(False)
+        axes.axhline(0.0, color=GREY, lw=0.5, zorder=0)
+        case = variant.find(model, paper.GAP_STUDY_KPA, gap)
+        if case is None or result.status[case] != "ok":
+            why = "no case" if case is None else f"{result.status[case]} in the case"
+            problems.append(f"{why} to draw: model {model}, gap {gap:g} mm")
+            continue
+        for part, _, color, line in PARTS:
+            axes.plot(time, result.trace(f"part_{part}_n", case), color=color, ls=line)
+        mate.plot(time, 1e3 * result.trace("displacement_mm", case), color=VERMILLION, ls=(0, (1, 1)), lw=1.0)
+        event = closing_event_ms(result, case)
+        axes.set_xlim(event - 0.5, event + 4.0)
+    _share(mates)
+    for axes in list(grid.flat)[len(gaps) :]:
+        axes.set_visible(False)
+    for axes in grid[-1]:
+        axes.set_xlabel("time (ms)")
+    figure.supylabel("force (N)", fontsize=8)
+    for number, mate in enumerate(mates):
+        mate.tick_params(axis="y", colors=VERMILLION, labelright=number % 2 == 1)
+        if number % 2 and number // 2 == (rows - 1) // 2:
+            mate.set_ylabel("displacement (µm)", color=VERMILLION)
+    handles = [Line2D([], [], color=color, ls=line, label=label) for _, label, color, line in PARTS]
+    handles.append(Line2D([], [], color=VERMILLION, ls=(0, (1, 1)), lw=1.0, label="tip displacement"))
+    figure.legend(handles=handles, loc="outside upper center", ncols=2, columnspacing=1.5)
+    return Picture(
+        f"parts_{model}",
+        f"Forces of the pressure on parts A, B and C of the reed, and its tip displacement, while closing at"
+        f" {paper.GAP_STUDY_KPA:g} kPa for gaps of {gaps[0]:.2f} to {gaps[-1]:.2f} mm, {model} model.",
+        figure,
+    )
+
+
+def _share(mates: list) -> None:
+    """The same displacement scale in all panels, wide enough for the swing below rest, not for that on opening."""
+    steady = [float(line.get_ydata()[line.get_xdata() <= mate.get_xlim()[0]][-1]) for mate in mates for line in mate.lines]
+    for mate in mates if steady else []:
+        mate.set_ylim(-0.2 * max(steady), 1.15 * max(steady))
+
+
+def models_picture(series: list[Series]) -> Picture | None:
+    """Fall and closing time of all models against pressure; None when there is but one model."""
+    curves = [s for s in series if s.count >= FEWEST]
+    if len(curves) < 2:
+        return None
+    figure, grid = new_figure(132.0, 2, 1, sharex=True)
+    for axes, key in zip(grid[:, 0], SWEEPS, strict=True):
+        _, file, measure, quantity, _ = SWEEPS[key]
+        rows = paper.table(file)
+        inlet, fea = ([row[name] for row in rows] for name in ("inlet_kpa", "fea_ms"))
+        low, high = paper.mesh_scatter(measure).percent
+        axes.fill_between(inlet, [t * (1 + low / 100) for t in fea], [t * (1 + high / 100) for t in fea],
+                          color=GREY, alpha=0.3, lw=0, label="their mesh scatter at 20 kPa")  # fmt: skip
+        axes.plot(inlet, fea, color=BLACK, ls="", marker="x", mew=1.2, label="finite elements")
+        axes.plot(inlet, [row["proposed_ms"] for row in rows], color=BLUE, ls="", marker="o", mfc="white",
+                  label="paper's model (fitted)")  # fmt: skip
+        for s in curves:
+            kind = look(s.model)
+            light = {"alpha": 0.55, "lw": 0.9} if s.edge else {}
+            axes.plot(inlet, [s.value(measure, p) for p in inlet], color=kind.color, ls=kind.line,
+                      label=f"{s.label}, ours", **light)  # fmt: skip
+        axes.set_ylabel(f"{quantity} (ms)")
+        axes.set_ylim(bottom=0.0)
+    grid[1, 0].set_xlabel("inlet pressure (kPa)")
+    grid[1, 0].set_xlim(0.0, 42.0)
+    handles, labels = grid[0, 0].get_legend_handles_labels()
+    figure.legend(handles, labels, loc="outside upper center", ncols=2, columnspacing=1.5)
+    return Picture(
+        "all_models_against_pressure",
+        f"Fall and closing time of all models against inlet pressure, gap {paper.GAP_MM:g} mm. The band is the scatter of"
+        " the finite elements' meshes, known at 20 kPa only, in per cent.",
+        figure,
+    )
