@@ -144,7 +144,7 @@ contains
 
    !> March from stop to stop; a failing lane is taken out and the march resumed.
    subroutine integrate(problem, settings, stops, integrator, y, step, measures, sampler, outcome)
-      type(problem_type), intent(inout) :: problem
+      type(problem_type), intent(inout), target :: problem   ! ARKODE's callbacks change it
       type(lane_settings), intent(in) :: settings
       real(wp), intent(in) :: stops(:)   !! [s], rising
       type(c_ptr), intent(in) :: integrator
@@ -188,7 +188,7 @@ contains
 
    !> Find the lane that stopped the integrator, say why, and silence it.
    subroutine take_out(problem, integrator, flag, step, y, y_new, outcome)
-      type(problem_type), intent(inout) :: problem
+      type(problem_type), intent(inout), target :: problem   ! ARKODE's callbacks change it
       type(c_ptr), intent(in) :: integrator
       integer(c_int), intent(in) :: flag
       type(step_type), intent(inout) :: step
@@ -196,9 +196,11 @@ contains
       real(c_double), intent(in) :: y_new(:)
       type(lane_outcome), intent(inout) :: outcome
       integer :: lane, w, status
+      real(wp) :: t
       character(len=:), allocatable :: reason
 
       w = problem%lanes%width
+      t = step%t1
       if (flag >= 0) then
          do lane = 1, w
             if (.not. all(ieee_is_finite(y_new(lane::w)))) exit
@@ -220,15 +222,15 @@ contains
          reason = arkode_message(integrator)
       end if
       if (outcome%status(lane) /= status_ok) then   ! no live lane is to blame: nothing can be saved
-         call fail_rest(outcome, status, "at t = "//to_text(step%t1, 6)//" s: "//reason)
+         call fail_rest(outcome, status, "at t = "//to_text(t, 6)//" s: "//reason)
          return
       end if
       outcome%status(lane) = status
-      outcome%message(lane)%s = "at t = "//to_text(step%t1, 6)//" s: "//reason
+      outcome%message(lane)%s = "at t = "//to_text(t, 6)//" s: "//reason
       call problem%lanes%silence(lane)
       problem%failed = 0
       y(lane::w) = 0.0_wp
-      call begin_step(problem, step%t1, y, step)
+      call begin_step(problem, t, y, step)
    end subroutine take_out
 
    subroutine fail_rest(outcome, status, message)
