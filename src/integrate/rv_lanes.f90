@@ -84,7 +84,7 @@ contains
       call pose(problem, lanes, history, settings%rtol)
       allocate(y(2*problem%half))
       call initial_state(problem, settings%from_equilibrium, y, outcome)
-      call begin_step(problem, history%start, y, step)
+      call begin_step(problem, history%start, y, outcome%status == status_ok, step)
       call new_measure_lanes(measures, history%start, history%event, min(history%cycle_end, settings%t_end), &
          & steady_state(problem), step%u1)
       call new_sampler(sampler, trace_time, problem%lanes)
@@ -230,7 +230,7 @@ contains
       call problem%lanes%silence(lane)
       problem%failed = 0
       y(lane::w) = 0.0_wp
-      call begin_step(problem, t, y, step)
+      call begin_step(problem, t, y, outcome%status == status_ok, step)
    end subroutine take_out
 
    subroutine fail_rest(outcome, status, message)
@@ -285,15 +285,16 @@ contains
       if (.not. started) call fail_rest(outcome, status_no_convergence, arkode_message(integrator))
    end function start_integrator
 
-   subroutine begin_step(problem, t, y, step)
+   subroutine begin_step(problem, t, y, live, step)
       type(problem_type), intent(inout) :: problem
       real(wp), intent(in) :: t
       real(c_double), intent(in) :: y(:)
+      logical, intent(in) :: live(:)
       type(step_type), intent(out) :: step
       real(wp), dimension(problem%lanes%width, problem%lanes%dofs) :: q, v, a
 
       call unpack_state(problem, t, y, q, v, a)
-      call new_step(step, t, q, v, a, problem%lanes%tip)
+      call new_step(step, t, q, v, a, problem%lanes%tip, live)
    end subroutine begin_step
 
    subroutine end_step(problem, t, y, step)

@@ -46,6 +46,7 @@ contains
          if (t >= step%t0) then   ! else before the start of this case
             call history%factors(t, inlet, outlet)
             do i = 1, step%width
+               if (.not. step%live(i)) cycle
                call state_at(step, i, t, q, v)
                call lanes%trace_values(i, inlet, outlet, q, v, self%value(self%next, :, i))
             end do
