@@ -43,7 +43,6 @@ contains
       if (status /= exit_fine) return
       options%folder = arguments%folder
       if (options%folder == "") options%folder = deck%name
-      if (options%folder == "") options%folder = "results"   ! a deck called .nml
       options%threads = arguments%threads
       options%resume = arguments%resume
       options%force = arguments%force
