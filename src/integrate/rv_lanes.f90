@@ -8,7 +8,7 @@ module rv_lanes
    use, intrinsic :: iso_c_binding, only : c_char, c_double, c_f_pointer, c_funloc, c_int, c_loc, c_null_char, c_ptr
    use rv_kinds, only : wp
    use rv_arkode, only : rv_arkode_new, rv_arkode_step, rv_arkode_restart, rv_arkode_fix_step, &
-      & rv_arkode_worst_lane, rv_arkode_free, arkode_message, rv_at_stop
+      & rv_arkode_worst_lane, rv_arkode_free, get_arkode_message, rv_at_stop
    use rv_measures, only : measure_lanes, new_measure_lanes, n_measures
    use rv_pressure, only : pressure_history
    use rv_sampler, only : sampler_type, new_sampler
@@ -154,6 +154,7 @@ contains
       type(sampler_type), intent(inout) :: sampler
       type(lane_outcome), intent(inout) :: outcome
       real(c_double) :: t, y_new(size(y))
+      character(len=:), allocatable :: reason
       integer(c_int) :: flag
       integer :: k
 
@@ -179,8 +180,8 @@ contains
          call take_out(problem, integrator, flag, step, y, y_new, outcome)
          if (all(outcome%status /= status_ok)) return
          if (rv_arkode_restart(integrator, step%t1, y) < 0) then
-            call fail_rest(outcome, status_no_convergence, &
-               & "at t = "//to_text(step%t1, 6)//" s: "//arkode_message(integrator))
+            call get_arkode_message(integrator, reason)
+            call fail_rest(outcome, status_no_convergence, "at t = "//to_text(step%t1, 6)//" s: "//reason)
             return
          end if
       end do
@@ -210,7 +211,7 @@ contains
       else if (problem%failed > 0) then
          lane = problem%failed
          status = status_no_convergence
-         reason = arkode_message(integrator)
+         call get_arkode_message(integrator, reason)
          if (problem%closed) then
             status = status_film_closed
             reason = "the film under the reed has closed; its tip is at u = " &
@@ -219,7 +220,7 @@ contains
       else
          lane = rv_arkode_worst_lane(integrator) + 1
          status = status_step_too_small
-         reason = arkode_message(integrator)
+         call get_arkode_message(integrator, reason)
       end if
       if (outcome%status(lane) /= status_ok) then   ! no live lane is to blame: nothing can be saved
          call fail_rest(outcome, status, "at t = "//to_text(t, 6)//" s: "//reason)
@@ -275,6 +276,7 @@ contains
       type(c_ptr), intent(out) :: integrator
       type(lane_outcome), intent(inout) :: outcome
       character(kind=c_char, len=*), parameter :: table = butcher_table//c_null_char
+      character(len=:), allocatable :: reason
       integer(c_int) :: flag
 
       flag = rv_arkode_new(int(problem%lanes%width, c_int), int(2*problem%lanes%dofs, c_int), &
@@ -282,7 +284,9 @@ contains
          & c_funloc(rhs), c_funloc(stage), c_funloc(weights), c_loc(problem), integrator)
       if (flag >= 0 .and. settings%fixed_step > 0.0_wp) flag = rv_arkode_fix_step(integrator, settings%fixed_step)
       started = flag >= 0
-      if (.not. started) call fail_rest(outcome, status_no_convergence, arkode_message(integrator))
+      if (started) return
+      call get_arkode_message(integrator, reason)
+      call fail_rest(outcome, status_no_convergence, reason)
    end function start_integrator
 
    subroutine begin_step(problem, t, y, live, step)
