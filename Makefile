@@ -3,6 +3,8 @@ venv := build/venv/bin
 reedvalve := build/release/drivers/reedvalve/reedvalve
 decks := table_3_4 gap_study response table_5
 demo := results/demo
+# Matplotlib keeps its font list here, not in the home folder, which need not exist.
+export MPLCONFIGDIR := $(abspath build/matplotlib)
 
 .PHONY: help demo test build lint format bootstrap checks clean
 help:

@@ -3,7 +3,7 @@ module rv_cli_commands
    use omp_lib, only : omp_get_max_threads
    use rv_block, only : block_count, block_result, run_block, trace_times
    use rv_cli_arguments, only : arguments_type
-   use rv_cli_output, only : complain, exit_bad, exit_fine, say, status_of
+   use rv_cli_output, only : complain, exit_bad, exit_fine, remark, say, status_of
    use rv_cli_progress, only : duration_text, progress_bar
    use rv_cli_report, only : counted, report_run
    use rv_deck, only : deck_type, read_deck
@@ -157,7 +157,7 @@ contains
          return
       end if
       do i = 1, faults%count()
-         if (.not. (faults%is_warning(i) .and. arguments%quiet)) call complain(faults%text(i))
+         if (.not. (faults%is_warning(i) .and. arguments%quiet)) call remark(faults%text(i))
       end do
       if (faults%errors() == 0) return
       call complain(counted(int(faults%errors(), i8), "fault")//" in "//arguments%operand//"; nothing was run")

@@ -5,7 +5,7 @@ module rv_cli_output
    use rv_error, only : error_type, rv_bad_input, rv_io
    implicit none
    private
-   public :: say, complain, status_of, end_program
+   public :: say, complain, remark, status_of, end_program
    public :: exit_fine, exit_failed, exit_bad, exit_io, exit_internal
 
    integer, parameter :: exit_fine = 0
@@ -50,15 +50,22 @@ contains
       end do
    end subroutine say
 
-   !> A line for standard error.
+   !> A line for standard error, with the program's name.
    subroutine complain(text)
+      character(len=*), intent(in) :: text
+
+      call remark("reedvalve: "//text)
+   end subroutine complain
+
+   !> A line for standard error as it is: what begins with file and line, so that editors find the place.
+   subroutine remark(text)
       character(len=*), intent(in) :: text
       integer :: flag
 
-      write(error_unit, '(a)', iostat=flag) "reedvalve: "//text
+      write(error_unit, '(a)', iostat=flag) text
       flush(error_unit)
       if (flag /= 0) call c_exit_at_once(int(exit_io, c_int))   ! nobody is left to tell
-   end subroutine complain
+   end subroutine remark
 
    !> The exit status for an error of the library.
    pure integer function status_of(error) result(status)

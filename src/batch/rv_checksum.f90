@@ -4,7 +4,7 @@
 !> Peterson & Brown (1961), doi:10.1109/JRPROC.1961.287814; tables for eight bytes at once after
 !> Kounavis & Berry (2008), doi:10.1109/TC.2008.85. Cost: about 1 ns per byte.
 module rv_checksum
-   use, intrinsic :: iso_c_binding, only : c_f_pointer, c_loc, c_ptr
+   use, intrinsic :: iso_c_binding, only : c_f_pointer, c_intptr_t, c_loc, c_ptr
    use, intrinsic :: iso_fortran_env, only : int8, int32
    use rv_kinds, only : i8
    implicit none
@@ -43,17 +43,22 @@ contains
       integer(int32) :: crc
       integer(int32), pointer :: word(:, :)
       integer(int8), pointer :: byte(:)
-      integer(i8) :: i
+      integer(i8) :: head, words, i
 
       crc = -1_int32
       if (present(start)) crc = not(start)
-      call c_f_pointer(data, word, [2_i8, size/8])
-      do i = 1, size/8
+      call c_f_pointer(data, byte, [size])
+      head = min(size, modulo(-transfer(data, 0_c_intptr_t), 4_c_intptr_t))   ! up to the first whole word
+      words = (size - head)/8
+      do i = 1, head
+         crc = one_byte(crc, byte(i))
+      end do
+      if (words > 0) call c_f_pointer(c_loc(byte(head + 1)), word, [2_i8, words])
+      do i = 1, words
          crc = eight_bytes(ieor(crc, word(1, i)), word(2, i))
       end do
-      call c_f_pointer(data, byte, [size])
-      do i = 8*(size/8) + 1, size
-         crc = ieor(shiftr(crc, 8), t0(iand(ieor(crc, int(byte(i), int32)), low_byte)))
+      do i = head + 8*words + 1, size
+         crc = one_byte(crc, byte(i))
       end do
       crc = not(crc)
    end function crc32_of
@@ -72,6 +77,13 @@ contains
 
       write(text, '(z8.8)') crc
    end function hex_text
+
+   pure integer(int32) function one_byte(crc, byte)
+      integer(int32), intent(in) :: crc
+      integer(int8), intent(in) :: byte
+
+      one_byte = ieor(shiftr(crc, 8), t0(iand(ieor(crc, int(byte, int32)), low_byte)))
+   end function one_byte
 
    pure function eight_bytes(low, high) result(crc)
       integer(int32), intent(in) :: low, high

@@ -28,7 +28,7 @@ module rv_results_netcdf
    integer, parameter :: chunk_cases = 16384           !! cases in one chunk of a variable without time
    integer, parameter :: chunk_messages = 1024
    integer, parameter :: chunk_bytes = 1048576         !! of a chunk with time, about
-   integer, parameter :: cache_bytes = 2097152         !! for each variable; the library's own default may be 16 MiB
+   integer, parameter :: cache_size = 2                !! for each variable [MiB]; the library's own may be 16
    integer, parameter :: fixed_bytes = 131072          !! of an empty file, about
    integer, parameter :: bytes_real = storage_size(1.0_wp)/8
 
@@ -352,7 +352,7 @@ contains
          call self%note(nf90_def_var(self%file, name, kind, var), name)
          return
       end if
-      call self%note(nf90_def_var(self%file, name, kind, dims, var, chunksizes=chunk, cache_size=cache_bytes, &
+      call self%note(nf90_def_var(self%file, name, kind, dims, var, chunksizes=chunk, cache_size=cache_size, &
          & cache_nelems=509, cache_preemption=100), name)
       if (kind /= nf90_double) return
       nan = ieee_value(nan, ieee_quiet_nan)

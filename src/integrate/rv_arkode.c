@@ -2,6 +2,7 @@
 #include "rv_arkode.h"
 
 #include <arkode/arkode_arkstep.h>
+#include <float.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -378,6 +379,8 @@ int rv_arkode_new(int lanes, int states, double t0, const double *y0, const char
 int rv_arkode_step(rv_arkode *self, double t_stop, double *t, double *y) {
   self->message[0] = '\0';
   TRY(ARK(SetStopTime)(self->memory, t_stop));
+  /* A step that does not move the time would be repeated for ever: fail instead. */
+  TRY(ARK(SetMinStep)(self->memory, 4.0 * DBL_EPSILON * fmax(fabs(*t), fabs(t_stop))));
   const int flag = ARK(Evolve)(self->memory, t_stop, self->y, t, ARK_ONE_STEP);
   if (flag < 0) return failed(self, "ARKODE", flag);
   memcpy(y, values(self->y), (size_t)count(self->y) * sizeof(double));

@@ -4,7 +4,7 @@ module rv_arkode
    implicit none
    private
    public :: rv_arkode_new, rv_arkode_step, rv_arkode_restart, rv_arkode_fix_step
-   public :: rv_arkode_worst_lane, rv_arkode_free, arkode_message, sundials_version
+   public :: rv_arkode_worst_lane, rv_arkode_free, get_arkode_message, sundials_version
    public :: rv_stepped, rv_at_stop
 
    integer(c_int), parameter :: rv_stepped = 0   !! one step done
@@ -72,14 +72,16 @@ module rv_arkode
 contains
 
    !> What went wrong in the last call that returned a negative flag.
-   function arkode_message(self) result(text)
+   !>
+   !> No function, for the sake of threads: see rv_text.
+   subroutine get_arkode_message(self, text)
       type(c_ptr), intent(in) :: self
-      character(len=:), allocatable :: text
+      character(len=:), allocatable, intent(out) :: text
       character(kind=c_char) :: buffer(longest)
 
       call rv_arkode_message(self, buffer, int(longest, c_int))
-      text = from_c(buffer)
-   end function arkode_message
+      call from_c(buffer, text)
+   end subroutine get_arkode_message
 
    !> Version of SUNDIALS at run time.
    function sundials_version() result(text)
@@ -87,12 +89,12 @@ contains
       character(kind=c_char) :: buffer(longest)
 
       call rv_sundials_version(buffer, int(longest, c_int))
-      text = from_c(buffer)
+      call from_c(buffer, text)
    end function sundials_version
 
-   pure function from_c(buffer) result(text)
+   pure subroutine from_c(buffer, text)
       character(kind=c_char), intent(in) :: buffer(:)
-      character(len=:), allocatable :: text
+      character(len=:), allocatable, intent(out) :: text
       integer :: i
 
       text = ""
@@ -100,6 +102,6 @@ contains
          if (buffer(i) == c_null_char) exit
          text = text//buffer(i)
       end do
-   end function from_c
+   end subroutine from_c
 
 end module rv_arkode

@@ -8,7 +8,7 @@ module rv_lanes
    use, intrinsic :: iso_c_binding, only : c_char, c_double, c_f_pointer, c_funloc, c_int, c_loc, c_null_char, c_ptr
    use rv_kinds, only : wp
    use rv_arkode, only : rv_arkode_new, rv_arkode_step, rv_arkode_restart, rv_arkode_fix_step, &
-      & rv_arkode_worst_lane, rv_arkode_free, arkode_message, rv_at_stop
+      & rv_arkode_worst_lane, rv_arkode_free, get_arkode_message, rv_at_stop
    use rv_measures, only : measure_lanes, new_measure_lanes, n_measures
    use rv_pressure, only : pressure_history
    use rv_sampler, only : sampler_type, new_sampler
@@ -86,7 +86,7 @@ contains
       call pose(problem, lanes, history, settings%rtol)
       allocate(y(2*problem%half))
       call initial_state(problem, settings%from_equilibrium, y, outcome)
-      call begin_step(problem, history%start, y, step)
+      call begin_step(problem, history%start, y, outcome%status == status_ok, step)
       call new_measure_lanes(measures, history%start, history%event, min(history%cycle_end, settings%t_end), &
          & steady_state(problem), step%u1)
       if (present(field_time)) then
@@ -151,7 +151,7 @@ contains
 
    !> March from stop to stop; a failing lane is taken out and the march resumed.
    subroutine integrate(problem, settings, stops, integrator, y, step, measures, sampler, outcome)
-      type(problem_type), intent(inout) :: problem
+      type(problem_type), intent(inout), target :: problem   ! ARKODE's callbacks change it
       type(lane_settings), intent(in) :: settings
       real(wp), intent(in) :: stops(:)   !! [s], rising
       type(c_ptr), intent(in) :: integrator
@@ -161,6 +161,7 @@ contains
       type(sampler_type), intent(inout) :: sampler
       type(lane_outcome), intent(inout) :: outcome
       real(c_double) :: t, y_new(size(y))
+      character(len=:), allocatable :: reason
       integer(c_int) :: flag
       integer :: k
 
@@ -186,8 +187,8 @@ contains
          call take_out(problem, integrator, flag, step, y, y_new, outcome)
          if (all(outcome%status /= status_ok)) return
          if (rv_arkode_restart(integrator, step%t1, y) < 0) then
-            call fail_rest(outcome, status_no_convergence, &
-               & "at t = "//to_text(step%t1, 6)//" s: "//arkode_message(integrator))
+            call get_arkode_message(integrator, reason)
+            call fail_rest(outcome, status_no_convergence, "at t = "//to_text(step%t1, 6)//" s: "//reason)
             return
          end if
       end do
@@ -195,7 +196,7 @@ contains
 
    !> Find the lane that stopped the integrator, say why, and silence it.
    subroutine take_out(problem, integrator, flag, step, y, y_new, outcome)
-      type(problem_type), intent(inout) :: problem
+      type(problem_type), intent(inout), target :: problem   ! ARKODE's callbacks change it
       type(c_ptr), intent(in) :: integrator
       integer(c_int), intent(in) :: flag
       type(step_type), intent(inout) :: step
@@ -203,9 +204,11 @@ contains
       real(c_double), intent(in) :: y_new(:)
       type(lane_outcome), intent(inout) :: outcome
       integer :: lane, w, status
+      real(wp) :: t
       character(len=:), allocatable :: reason
 
       w = problem%lanes%width
+      t = step%t1
       if (flag >= 0) then
          do lane = 1, w
             if (.not. all(ieee_is_finite(y_new(lane::w)))) exit
@@ -215,7 +218,7 @@ contains
       else if (problem%failed > 0) then
          lane = problem%failed
          status = status_no_convergence
-         reason = arkode_message(integrator)
+         call get_arkode_message(integrator, reason)
          if (problem%closed) then
             status = status_film_closed
             reason = "the film under the reed has closed; its tip is at u = " &
@@ -224,18 +227,18 @@ contains
       else
          lane = rv_arkode_worst_lane(integrator) + 1
          status = status_step_too_small
-         reason = arkode_message(integrator)
+         call get_arkode_message(integrator, reason)
       end if
       if (outcome%status(lane) /= status_ok) then   ! no live lane is to blame: nothing can be saved
-         call fail_rest(outcome, status, "at t = "//to_text(step%t1, 6)//" s: "//reason)
+         call fail_rest(outcome, status, "at t = "//to_text(t, 6)//" s: "//reason)
          return
       end if
       outcome%status(lane) = status
-      outcome%message(lane)%s = "at t = "//to_text(step%t1, 6)//" s: "//reason
+      outcome%message(lane)%s = "at t = "//to_text(t, 6)//" s: "//reason
       call problem%lanes%silence(lane)
       problem%failed = 0
       y(lane::w) = 0.0_wp
-      call begin_step(problem, step%t1, y, step)
+      call begin_step(problem, t, y, outcome%status == status_ok, step)
    end subroutine take_out
 
    subroutine fail_rest(outcome, status, message)
@@ -280,6 +283,7 @@ contains
       type(c_ptr), intent(out) :: integrator
       type(lane_outcome), intent(inout) :: outcome
       character(kind=c_char, len=*), parameter :: table = butcher_table//c_null_char
+      character(len=:), allocatable :: reason
       integer(c_int) :: flag
 
       flag = rv_arkode_new(int(problem%lanes%width, c_int), int(2*problem%lanes%dofs, c_int), &
@@ -287,18 +291,21 @@ contains
          & c_funloc(rhs), c_funloc(stage), c_funloc(weights), c_loc(problem), integrator)
       if (flag >= 0 .and. settings%fixed_step > 0.0_wp) flag = rv_arkode_fix_step(integrator, settings%fixed_step)
       started = flag >= 0
-      if (.not. started) call fail_rest(outcome, status_no_convergence, arkode_message(integrator))
+      if (started) return
+      call get_arkode_message(integrator, reason)
+      call fail_rest(outcome, status_no_convergence, reason)
    end function start_integrator
 
-   subroutine begin_step(problem, t, y, step)
+   subroutine begin_step(problem, t, y, live, step)
       type(problem_type), intent(inout) :: problem
       real(wp), intent(in) :: t
       real(c_double), intent(in) :: y(:)
+      logical, intent(in) :: live(:)
       type(step_type), intent(out) :: step
       real(wp), dimension(problem%lanes%width, problem%lanes%dofs) :: q, v, a
 
       call unpack_state(problem, t, y, q, v, a)
-      call new_step(step, t, q, v, a, problem%lanes%tip)
+      call new_step(step, t, q, v, a, problem%lanes%tip, live)
    end subroutine begin_step
 
    subroutine end_step(problem, t, y, step)

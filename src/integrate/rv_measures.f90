@@ -26,7 +26,7 @@ module rv_measures
       real(wp) :: start = 0.0_wp      !! first instant [s]
       real(wp) :: event = 0.0_wp      !! start of the closing event [s]
       real(wp) :: cycle_end = 0.0_wp  !! end of what is measured [s]
-      real(wp) :: reached = 0.0_wp    !! last instant seen [s]
+      real(wp), allocatable :: reached(:)         !! last instant seen [s]
       real(wp), allocatable :: steady(:)          !! [m]
       real(wp), allocatable :: up(:, :)           !! instants of the upward crossings [s]
       real(wp), allocatable :: down(:, :)         !! instants of the downward crossings [s]
@@ -41,23 +41,27 @@ module rv_measures
 
 contains
 
-   !> Begin at the initial state.
+   !> Begin at the initial state. An event nearer to an end than an integrator would stop for lies on that end.
    pure subroutine new_measure_lanes(self, start, event, cycle_end, steady, u)
       type(measure_lanes), intent(out) :: self
       real(wp), intent(in) :: start, event, cycle_end   !! [s]
       real(wp), intent(in) :: steady(:)                 !! [m]
       real(wp), intent(in) :: u(:)                      !! initial displacement [m]
+      real(wp) :: closest
 
       self%start = start
       self%event = event
       self%cycle_end = cycle_end
-      self%reached = start
+      closest = 1.0e-9_wp*(cycle_end - start)
+      if (abs(event - start) <= closest) self%event = start
+      if (abs(event - cycle_end) <= closest) self%event = cycle_end
       self%steady = steady
       allocate(self%up(n_up, size(u)), self%down(n_down, size(u)))
       self%up = ieee_value(1.0_wp, ieee_quiet_nan)
       self%down = self%up(1, 1)
       self%highest = u
       self%lowest = u
+      allocate(self%reached(size(u)), source=start)
       allocate(self%largest_force(size(u)), self%rate(size(u)), source=0.0_wp)
    end subroutine new_measure_lanes
 
@@ -71,10 +75,11 @@ contains
       integer :: i
 
       if (step%t0 >= self%cycle_end) return
-      self%reached = step%t1
-      if (step%t0 <= self%event) self%lowest = step%u0
       call history%factors(step%t1, inlet, outlet)
       do i = 1, step%width
+         if (.not. step%live(i)) cycle
+         self%reached(i) = step%t1
+         if (step%t0 <= self%event) self%lowest(i) = step%u0(i)
          call observe_lane(self, step, i)
          if (.not. lanes%has_film(i)) cycle
          call lanes%film_force(i, inlet, outlet, step%q1(i, :), step%v1(i, :), step%a1(i, :), force, rate)
@@ -210,13 +215,13 @@ contains
       measure(1) = self%steady(i)
       measure(2) = self%up(2, i) - self%up(1, i)
       measure(3) = self%up(3, i) - self%start
-      if (self%reached >= self%event .and. self%event > self%start) then
+      if (self%steady(i) > 0.0_wp .and. self%event > self%start .and. self%reached(i) >= self%event) then
          measure(4) = max(0.0_wp, self%highest(i) - self%steady(i))
       end if
       measure(5) = self%down(2, i) - self%down(1, i)
       measure(6) = self%down(3, i) - self%event
       measure(7) = self%down(4, i) - self%event
-      if (self%reached > self%event) measure(8) = max(0.0_wp, -self%lowest(i))
+      if (self%reached(i) > self%event) measure(8) = max(0.0_wp, -self%lowest(i))
       measure(9) = self%largest_force(i)
    end function results
 

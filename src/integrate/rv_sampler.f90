@@ -49,6 +49,7 @@ contains
          if (self%time(self%next) >= step%t0) then   ! else before the start of this case
             call history%factors(self%time(self%next), inlet, outlet)
             do i = 1, step%width
+               if (.not. step%live(i)) cycle
                call state_at(step, i, self%time(self%next), q, v)
                call lanes%trace_values(i, inlet, outlet, q, v, self%value(self%next, :, i))
             end do
@@ -59,6 +60,7 @@ contains
          if (self%field_time(self%next_field) >= step%t0) then
             call history%factors(self%field_time(self%next_field), inlet, outlet)
             do i = 1, step%width
+               if (.not. step%live(i)) cycle
                call state_at(step, i, self%field_time(self%next_field), q, v)
                call lanes%pressure_field(i, inlet, outlet, q, v, self%field(:, self%next_field, i))
             end do

@@ -6,6 +6,7 @@
 !> closing lumped reed g rises steadily, without bound as the film closes: one root. A correction that
 !> would take more than three quarters of the film is cut, so that h stays positive.
 module rv_stage
+   use, intrinsic :: ieee_arithmetic, only : ieee_is_nan
    use rv_kinds, only : wp
    use rv_valve_lanes, only : valve_lanes
    implicit none
@@ -13,7 +14,7 @@ module rv_stage
    public :: solve_stage
 
    integer, parameter :: max_iterations = 40
-   integer, parameter :: max_halvings = 8
+   integer, parameter :: max_halvings = 8   !! of a lane's correction, in one iteration
    real(wp), parameter :: accuracy = 0.1_wp  !! last correction over tolerance; Newton squares it: error below rtol
 
    interface
@@ -79,7 +80,8 @@ contains
          if (.not. any(open)) exit
       end do
       q = base_q + gamma*v
-      closed = failed > 0
+      closed = .false.
+      if (failed > 0) closed = .not. ieee_is_nan(q(failed))
       if (failed == 0) failed = first_true(open)
    end subroutine solve_scalar
 
@@ -93,16 +95,19 @@ contains
       real(wp), dimension(lanes%width, lanes%dofs) :: a, correction
       real(wp), dimension(lanes%width, lanes%dofs, lanes%dofs) :: a_q, a_v
       logical :: open(lanes%width)
-      integer :: iteration, halving, i
+      integer :: halvings(lanes%width), iteration, i
 
       correction = v
       v = 0.0_wp   ! halving leads from the prediction back to the start of the step
       open = .true.
       do iteration = 1, max_iterations
-         do halving = 1, max_halvings
+         halvings = 0
+         do
             q = base_q + gamma*(v + correction)
             call lanes%linearise(inlet, outlet, q, v + correction, a, a_q, a_v, failed)
             if (failed == 0) exit
+            if (halvings(failed) == max_halvings) exit
+            halvings(failed) = halvings(failed) + 1
             correction(failed, :) = 0.5_wp*correction(failed, :)
          end do
          v = v + correction
@@ -116,12 +121,13 @@ contains
          exit
       end do
       q = base_q + gamma*v
-      closed = failed > 0
+      closed = .false.
+      if (failed > 0) closed = .not. any(ieee_is_nan(q(failed, :)))
       if (failed == 0) failed = first_true(open)
 
    contains
 
-      !> Newton's correction of one lane; NaN where the system is singular.
+      !> Newton's correction of one lane; too large for any tolerance where the system is singular.
       subroutine correct(residual, slope_q, slope_v, dv)
          real(wp), intent(in) :: residual(:), slope_q(:, :), slope_v(:, :)
          real(wp), intent(out) :: dv(:)

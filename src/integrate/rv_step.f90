@@ -9,6 +9,7 @@ module rv_step
    !> Arrays of states are (width, dofs), of the tip (width).
    type :: step_type
       integer :: width = 0
+      logical, allocatable :: live(:)                          !! lanes that have not failed
       real(wp) :: t0 = 0.0_wp, t1 = 0.0_wp                     !! the step's ends [s]
       real(wp), allocatable :: q0(:, :), v0(:, :), a0(:, :)    !! at t0
       real(wp), allocatable :: q1(:, :), v1(:, :), a1(:, :)    !! at t1
@@ -25,13 +26,15 @@ module rv_step
 contains
 
    !> A step of no length at t.
-   pure subroutine new_step(self, t, q, v, a, tip)
+   pure subroutine new_step(self, t, q, v, a, tip, live)
       type(step_type), intent(out) :: self
       real(wp), intent(in) :: t
       real(wp), intent(in) :: q(:, :), v(:, :), a(:, :)
       real(wp), intent(in) :: tip(:)
+      logical, intent(in) :: live(:)
 
       self%width = size(q, 1)
+      self%live = live
       self%tip = tip
       self%q1 = q
       self%v1 = v

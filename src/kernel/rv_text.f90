@@ -1,4 +1,7 @@
 !> Text: lists of strings, numbers in their shortest exact form, lower case.
+!>
+!> No function here has a deferred-length result: gfortran 12 keeps the length of such a result in a static
+!> variable of the calling procedure, so that two threads in one procedure would cut each other's texts.
 module rv_text
    use, intrinsic :: ieee_arithmetic, only : ieee_is_finite, ieee_is_nan
    use rv_kinds, only : wp, i8
@@ -19,72 +22,39 @@ module rv_text
       module procedure long_to_text
    end interface to_text
 
+   integer, parameter :: longest = 40  !! of a number's text; what is not used is blank
+
 contains
 
    !> The shortest decimal that reads back as `x`: 0.05, 1.5e-7, NaN, Infinity.
    pure function real_to_text(x) result(text)
       real(wp), intent(in) :: x
-      character(len=:), allocatable :: text
-      integer :: digits
-      real(wp) :: back
+      character(len=len_trim(shortest(x))) :: text
 
-      if (.not. ieee_is_finite(x)) then
-         text = non_finite(x)
-         return
-      end if
-      do digits = 15, 17
-         text = rounded_to_text(x, digits)
-         read(text, *) back
-         if (abs(back - x) <= 0.0_wp) return
-      end do
+      text = shortest(x)
    end function real_to_text
 
    !> `x` with so many significant digits, trailing zeros dropped, as %g of C would choose the form.
    pure function rounded_to_text(x, digits) result(text)
       real(wp), intent(in) :: x
       integer, intent(in) :: digits           !! 1 to 17
-      character(len=:), allocatable :: text
-      character(len=40) :: buffer, form
-      character(len=:), allocatable :: mantissa
-      integer :: exponent, e
+      character(len=len_trim(rounded(x, digits))) :: text
 
-      if (.not. ieee_is_finite(x)) then
-         text = non_finite(x)
-         return
-      end if
-      write(form, '(a, i0, a)') "(es40.", digits - 1, "e3)"
-      write(buffer, form) x
-      buffer = adjustl(buffer)
-      e = scan(buffer, "E")
-      read(buffer(e + 1:), *) exponent
-      mantissa = buffer(:e - 1)
-      if (exponent >= -4 .and. exponent < max(digits, 6)) then
-         write(form, '(a, i0, a)') "(f40.", max(0, digits - 1 - exponent), ")"
-         write(buffer, form) x
-         buffer = adjustl(buffer)
-         text = drop_zeros(trim(buffer))
-         if (text(1:1) == ".") text = "0"//text
-         if (index(text, "-.") == 1) text = "-0"//text(2:)
-      else
-         write(buffer, '(i0)') exponent
-         text = drop_zeros(mantissa)//"e"//trim(buffer)
-      end if
+      text = rounded(x, digits)
    end function rounded_to_text
 
    pure function integer_to_text(i) result(text)
       integer, intent(in) :: i
-      character(len=:), allocatable :: text
+      character(len=len_trim(whole(int(i, i8)))) :: text
 
-      text = long_to_text(int(i, i8))
+      text = whole(int(i, i8))
    end function integer_to_text
 
    pure function long_to_text(i) result(text)
       integer(i8), intent(in) :: i
-      character(len=:), allocatable :: text
-      character(len=24) :: buffer
+      character(len=len_trim(whole(i))) :: text
 
-      write(buffer, '(i0)') i
-      text = trim(buffer)
+      text = whole(i)
    end function long_to_text
 
    !> ASCII letters in lower case.
@@ -100,32 +70,69 @@ contains
       end do
    end function lower
 
-   pure function non_finite(x) result(text)
+   pure function whole(i) result(text)
+      integer(i8), intent(in) :: i
+      character(len=longest) :: text
+
+      write(text, '(i0)') i
+   end function whole
+
+   pure function shortest(x) result(text)
       real(wp), intent(in) :: x
-      character(len=:), allocatable :: text
+      character(len=longest) :: text
+      integer :: digits
+      real(wp) :: back
 
-      if (ieee_is_nan(x)) then
-         text = "NaN"
-      else if (x > 0.0_wp) then
-         text = "Infinity"
-      else
-         text = "-Infinity"
+      do digits = 15, 17
+         text = rounded(x, digits)
+         if (.not. ieee_is_finite(x)) return
+         read(text, *) back
+         if (abs(back - x) <= 0.0_wp) return
+      end do
+   end function shortest
+
+   pure function rounded(x, digits) result(text)
+      real(wp), intent(in) :: x
+      integer, intent(in) :: digits
+      character(len=longest) :: text
+      character(len=longest) :: buffer, form
+      integer :: exponent, e
+
+      if (.not. ieee_is_finite(x)) then
+         text = merge("NaN      ", merge("Infinity ", "-Infinity", x > 0.0_wp), ieee_is_nan(x))
+         return
       end if
-   end function non_finite
+      write(form, '(a, i0, a)') "(es40.", digits - 1, "e3)"
+      write(buffer, form) x
+      buffer = adjustl(buffer)
+      e = scan(buffer, "E")
+      read(buffer(e + 1:), *) exponent
+      if (exponent >= -4 .and. exponent < max(digits, 6)) then
+         write(form, '(a, i0, a)') "(f40.", max(0, digits - 1 - exponent), ")"
+         write(buffer, form) x
+         text = adjustl(buffer)
+         call drop_zeros(text)
+         if (text(1:1) == ".") text = "0"//text(:longest - 1)
+         if (index(text, "-.") == 1) text = "-0"//text(2:longest - 1)
+      else
+         text = buffer(:e - 1)
+         call drop_zeros(text)
+         write(text(len_trim(text) + 1:), '("e", i0)') exponent
+      end if
+   end function rounded
 
-   pure function drop_zeros(number) result(short)
-      character(len=*), intent(in) :: number
-      character(len=:), allocatable :: short
+   !> Drop the zeros that end a fraction, and the point if nothing follows it.
+   pure subroutine drop_zeros(number)
+      character(len=longest), intent(inout) :: number
       integer :: last
 
-      short = number
       if (index(number, ".") == 0) return
-      last = len(number)
+      last = len_trim(number)
       do while (number(last:last) == "0")
          last = last - 1
       end do
       if (number(last:last) == ".") last = last - 1
-      short = number(:last)
-   end function drop_zeros
+      number(last + 1:) = ""
+   end subroutine drop_zeros
 
 end module rv_text

@@ -54,14 +54,8 @@ program test_run
       & //"&sweep key = 'pressure.inlet_kpa', from = 5.0, to = 40.0, count = 8 /"//new_line("a")
    type(suite_type) :: suite
    type(deck_type) :: deck
-   type(fault_list) :: faults
-   type(error_type), allocatable :: error
 
-   call write_whole_file("library.nml", deck_text, error)
-   call suite%no_error("write a deck", error)
-   call read_deck("library.nml", deck, faults, error)
-   call suite%no_error("read it", error)
-   call suite%equal("its faults", faults%errors(), 0)
+   call read_the_deck()
    call test_whole()
    call test_stops()
    call test_stopped_merge()
@@ -69,9 +63,21 @@ program test_run
 
 contains
 
+   subroutine read_the_deck()
+      type(fault_list) :: faults
+      type(error_type), allocatable :: error
+
+      call write_whole_file("library.nml", deck_text, error)
+      call suite%no_error("write a deck", error)
+      call read_deck("library.nml", deck, faults, error)
+      call suite%no_error("read it", error)
+      call suite%equal("its faults", faults%errors(), 0)
+   end subroutine read_the_deck
+
    subroutine test_whole()
       type(counting_monitor) :: monitor
       type(run_outcome) :: outcome
+      type(error_type), allocatable :: error
 
       call run_deck(deck, run_options(folder="run_whole", force=.true.), monitor, outcome, error)
       call suite%no_error("run", error)
@@ -89,6 +95,7 @@ contains
    subroutine test_stops()
       type(counting_monitor) :: first, second, third
       type(run_outcome) :: outcome
+      type(error_type), allocatable :: error
       integer :: kind
 
       first%stop_after = 2
@@ -115,6 +122,7 @@ contains
    subroutine test_stopped_merge()
       type(counting_monitor) :: stopper, other
       type(run_outcome) :: outcome
+      type(error_type), allocatable :: error
       integer :: kind
 
       stopper%stop_merge_after = 3
@@ -132,6 +140,7 @@ contains
 
    subroutine same_bytes(folder)
       character(len=*), intent(in) :: folder
+      type(error_type), allocatable :: error
       character(len=:), allocatable :: whole, text
       logical :: found
 

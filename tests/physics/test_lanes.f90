@@ -4,7 +4,7 @@ program test_lanes
    use rv_kinds, only : wp
    use rv_lanes, only : lane_outcome, lane_settings
    use rv_lumped, only : lumped_valve
-   use rv_status, only : status_ok, status_name, status_too_many_steps
+   use rv_status, only : status_film_closed, status_ok, status_name, status_too_many_steps
    use check, only : suite_type
    use paper_valve, only : run_lumped, valve_at, wave_40ms, kpa, mm, ms
    implicit none
@@ -15,6 +15,7 @@ program test_lanes
 
    call alone_and_in_company()
    call failing_neighbour()
+   call neighbour_on_its_seat()
    call step_limit()
    call suite%finish()
 
@@ -103,6 +104,39 @@ contains
       end do
       call suite%close("and are where they were without the failures", worst, 0.0_wp, 0.0_wp, 1.0e-4_wp)
    end subroutine failing_neighbour
+
+   !> A film too weak to slow its reed, which strikes the seat in mid-closing: up to then it is as it is alone, then
+   !> it is missing; the other lanes do not notice at any time.
+   subroutine neighbour_on_its_seat()
+      integer, parameter :: n = 400
+      type(lumped_valve) :: valve(3)
+      type(lane_outcome) :: with, without, alone
+      type(lane_settings) :: settings
+      real(wp) :: time(0:n), scale
+      integer :: i, last
+
+      settings%t_end = 40.0_wp*ms
+      settings%rtol = rtol
+      time = [(settings%t_end*real(i, wp)/real(n, wp), i=0, n)]
+      valve = [valve_at(20.0_wp*kpa, 0.05_wp*mm, 0.0075_wp), valve_at(20.0_wp*kpa, 0.001_wp*mm, 1.0e-70_wp), &
+         & valve_at(10.0_wp*kpa, 0.1_wp*mm, 0.0_wp)]
+      call run_lumped(valve, wave_40ms(), settings, time, with)
+      call run_lumped(valve([1, 3]), wave_40ms(), settings, time, without)
+      call run_lumped(valve(2:2), wave_40ms(), settings, time, alone)
+      call suite%true("the reed strikes its seat ("//with%message(2)%s//")", with%status(2) == status_film_closed)
+      call suite%true("the others do not", all(with%status([1, 3]) == status_ok))
+      scale = with%measure(1, 1)
+      call suite%close("largest distance of the others' displacements to those without it", &
+         & maxval(abs(with%trace(:, 1, [1, 3]) - without%trace(:, 1, :)))/scale, 0.0_wp, 0.0_wp, 1.0e-4_wp)
+      last = count(.not. ieee_is_nan(with%trace(:, 1, 2))) - 1
+      call suite%true("it fails after the event and before the end", time(last) > 19.5_wp*ms .and. time(last) < 22.0_wp*ms)
+      call suite%true("as early as alone", last == count(.not. ieee_is_nan(alone%trace(:, 1, 1))) - 1)
+      call suite%true("nothing is known of it after that", all(ieee_is_nan(with%trace(last + 2:, :, 2))))
+      call suite%close("before that it is as it is alone", maxval(abs(with%trace(:last + 1, 1, 2) &
+         & - alone%trace(:last + 1, 1, 1)))/scale, 0.0_wp, 0.0_wp, 1.0e-4_wp)
+      call suite%true("the same measures are missing", all(ieee_is_nan(with%measure(:, 2)) .eqv. ieee_is_nan(alone%measure(:, 1))))
+      call suite%close("largest force of the others' film [N]", with%measure(9, 1), without%measure(9, 1), 1.0e-4_wp, 0.0_wp)
+   end subroutine neighbour_on_its_seat
 
    subroutine step_limit()
       type(lane_outcome) :: outcome
