@@ -1,4 +1,4 @@
-"""Command line: compare, plot and report. This module alone prints."""
+"""Command line: compare, plot, fields and report. This module alone prints."""
 
 from __future__ import annotations
 
@@ -23,6 +23,7 @@ def _parser() -> argparse.ArgumentParser:
         "compare": ("tables beside the paper's, on the terminal and as CSV and Markdown",
                     "folder to write to (default: DIR/compare)"),
         "plot": ("pictures as PNG and SVG", "folder to write to (default: DIR/plots)"),
+        "fields": ("film pressure fields as VTK files, for ParaView", "folder to write to (default: DIR/vtk)"),
         "report": ("one HTML page about all folders", "file to write (default: report.html in the first DIR)"),
     }  # fmt: skip
     for name, (text, output) in words.items():
@@ -82,6 +83,21 @@ def _plot(arguments: argparse.Namespace, results: list[Result]) -> int:
     return status
 
 
+def _fields(arguments: argparse.Namespace, results: list[Result]) -> int:
+    from reedpost.paraview import write_fields
+
+    status = FINE
+    for result in results:
+        paths = write_fields(result, _target(arguments, result, "vtk"))
+        for path in paths:
+            if path.suffix == ".pvd":
+                print(path)
+        if not paths:
+            _complain(f"{result.folder}: holds no pressure field (film.fields_ms in the deck of a film model)")
+            status = INCOMPLETE
+    return status
+
+
 def _report(arguments: argparse.Namespace, results: list[Result]) -> int:
     from reedpost.report import build_report
 
@@ -97,7 +113,7 @@ def main(words: list[str] | None = None) -> int:
     """Run one command; the value is the exit status."""
     arguments = _parser().parse_args(words)
     commands: dict[str, Callable[[argparse.Namespace, list[Result]], int]] = {
-        "compare": _compare, "plot": _plot, "report": _report,
+        "compare": _compare, "plot": _plot, "fields": _fields, "report": _report,
     }  # fmt: skip
     results: list[Result] = []
     status = FINE

@@ -109,18 +109,13 @@ def _other_failures(result: Result, tables: list[Table]) -> list[str]:
 
 def _warnings(result: Result) -> list[str]:
     """How many cases carry each warning, with the first one's text."""
-    if "warnings" not in result.dataset:
-        return []
-    attributes = result.dataset["warnings"].attrs
-    masks = np.atleast_1d(attributes.get("flag_masks", [])).astype(int)
-    names = str(attributes.get("flag_meanings", "")).split()
-    flags = result.measure("warnings").astype(int)
     lines = []
-    for mask, name in zip(masks.tolist(), names, strict=False):
-        warned = np.flatnonzero(flags & mask)
+    for name in result.warnings():
+        warned = np.flatnonzero(result.warned(name))
         if len(warned):
-            text = result.message(int(warned[0])) or "no text"
-            lines.append(f"{len(warned)} of {result.count} cases carry the warning {name}; case {warned[0] + 1}: {text}")
+            text = result.message(int(warned[0])).removeprefix("warning: ") or "no text"
+            count = f"{len(warned)} of {result.count} cases carry the warning {name}"
+            lines.append(f"{count}; case {warned[0] + 1}: {text}")
     return lines
 
 

@@ -61,7 +61,9 @@ def case_rows(result: Result, case: int) -> list[list[float]]:
         top = int(pressure.argmax())
         a, b = film_mesh.land_means(result, case, pressure)
         c = film_mesh.inlet_kpa(result, case, time)
-        rows.append([gap, inlet, time, c, a, b, float(pressure[top]), float(x[top]), float(y[top]), float(pressure.min())])
+        rows.append(
+            [gap, inlet, time, c, a, b, float(pressure[top]), float(x[top]), float(y[top]), float(pressure.min())]
+        )
     return rows
 
 

@@ -26,7 +26,6 @@ from reedpost.studies import (
 from reedpost.style import BLACK, BLUE, GREY, SERIES, in_style, look, new_figure
 from reedpost.time_tables import SWEEPS
 
-
 MOST_FIELDS = 6  # pictures of pressure fields
 
 

@@ -6,11 +6,10 @@ import math
 
 import numpy as np
 from matplotlib.cm import ScalarMappable
-from matplotlib.colors import BoundaryNorm
+from matplotlib.colors import Normalize
 from matplotlib.lines import Line2D
-from matplotlib.patches import Circle
+from matplotlib.patches import Circle, PathPatch
 from matplotlib.path import Path as Outline
-from matplotlib.patches import PathPatch
 from matplotlib.ticker import MaxNLocator
 
 from reedpost import film_mesh, paper
@@ -24,7 +23,8 @@ from reedpost.style import BLACK, BLUE, GREEN, GREY, VERMILLION, look, new_figur
 from reedpost.time_tables import SWEEPS
 
 MAP = "viridis"  # perceptually uniform, and told apart in grey
-LEVELS = 16  # of pressure, at most
+BANDS = 32  # of colour
+PIECES = 3  # the stored cells' sides are cut into, along the quadratic elements
 PARTS = (("a", "A, land at the root", BLACK, "-"), ("b", "B, rest of the land", GREEN, (0, (5, 1, 1, 1))),
          ("c", "C, over the hole", BLUE, (0, (4, 1.5))))  # fmt: skip
 
@@ -32,39 +32,44 @@ PARTS = (("a", "A, land at the root", BLACK, "-"), ("b", "B, rest of the land", 
 def field_picture(result: Result, case: int) -> Picture:
     """Film pressure on the whole reed at the stored times (Figs. 6 and 7)."""
     times, form = film_mesh.field_times(result), film_mesh.planform(result, case)
-    mesh = film_mesh.whole_reed(result, case)
+    mesh = film_mesh.whole_reed(result, case, PIECES)
     inlets = [film_mesh.inlet_kpa(result, case, time) for time in times.tolist()]
-    values = [mesh.values(film_mesh.field(result, case, i), p) for i, p in enumerate(inlets)]
-    levels = MaxNLocator(LEVELS, steps=[1, 2, 2.5, 5, 10]).tick_values(
-        min(0.0, *(float(np.nanmin(v)) for v in values)), max(float(np.nanmax(v)) for v in values)
-    )
+    stored = [film_mesh.field(result, case, i) for i in range(len(times))]
+    values = [mesh.values(film_mesh.finer(result, v, PIECES), p) for v, p in zip(stored, inlets, strict=True)]
+    low, high = min(0.0, *(float(np.nanmin(v)) for v in values)), max(float(np.nanmax(v)) for v in values)
+    high = high if high > low else low + 1.0
+    norm, ticks = Normalize(low, high), MaxNLocator(9, steps=[1, 2, 5, 10]).tick_values(low, high)
+    ticks = ticks[(ticks >= low) & (ticks <= high)]
+    lines = ticks[np.abs(ticks) > 1e-9 * high]  # zero is the outlet's, all along the edge
     columns = min(3, len(times))
     rows = math.ceil(len(times) / columns)
     figure, grid = new_figure(31.0 * rows + 16.0, rows, columns, sharex=True, sharey=True)
     triangles = np.concatenate([mesh.quads[:, [0, 1, 2]], mesh.quads[:, [0, 2, 3]]])
-    norm, hues = BoundaryNorm(levels, 256), MAP
-    for axes, time, inlet, value in zip(grid.flat, times, inlets, values, strict=False):
-        filled = axes.tricontourf(mesh.x, mesh.y, triangles, value, levels=levels, norm=norm, cmap=hues)
+    for axes, time, inlet, film, value in zip(grid.flat, times, inlets, stored, values, strict=False):
+        filled = axes.tricontourf(mesh.x, mesh.y, triangles, value, np.linspace(low, high, BANDS), norm=norm, cmap=MAP)
         filled.set_edgecolor("face")  # no hairlines between the bands in SVG
         filled.set_linewidth(0.2)
-        color = ScalarMappable(norm, hues).to_rgba(inlet)
+        axes.tricontour(mesh.x, mesh.y, triangles, value, lines, colors="white", linewidths=0.35, alpha=0.7)
+        color = ScalarMappable(norm, MAP).to_rgba(inlet)
         axes.add_patch(Circle((form.centre, 0.0), form.hole_radius, facecolor=color, edgecolor="white", lw=0.8))
         axes.add_patch(PathPatch(_outline(form), facecolor="none", edgecolor=BLACK, lw=0.8))
         axes.plot([0.0, 0.0], [-form.half_width, form.half_width], color=BLACK, lw=2.2, solid_capstyle="butt")
         axes.set_title(f"{time:g} ms", pad=11)
-        axes.annotate(f"inlet {inlet:.3g}, highest {np.nanmax(value):.3g}", (0.5, 1.02), xycoords="axes fraction",
+        axes.annotate(f"inlet {inlet:.3g}, film {_span(film)}", (0.5, 1.02), xycoords="axes fraction",
                       ha="center", va="bottom", fontsize=5.5)  # fmt: skip
         axes.set_aspect("equal")
         axes.set_xlim(-0.3, form.length + 0.2)
+        axes.set_xticks([0.0, form.root, form.centre, form.length])
+        axes.set_yticks([-form.half_width, 0.0, form.half_width])
     for axes in list(grid.flat)[len(times) :]:
         axes.set_visible(False)
     for axes in grid[-1]:
         axes.set_xlabel("x (mm)")
     for axes in grid[:, 0]:
         axes.set_ylabel("y (mm)")
-    bar = figure.colorbar(ScalarMappable(norm, hues), ax=grid, orientation="horizontal", aspect=40, shrink=0.9)
+    bar = figure.colorbar(ScalarMappable(norm, MAP), ax=grid, orientation="horizontal", aspect=40, shrink=0.9)
     bar.set_label("pressure (kPa)")
-    bar.set_ticks(levels[:: max(1, len(levels) // 8)])
+    bar.set_ticks(ticks)
     gap, pressure = (float(result.value(key, case)) for key in ("film.gap_mm", "pressure.inlet_kpa"))
     model = str(result.model[case])
     return Picture(
@@ -73,6 +78,12 @@ def field_picture(result: Result, case: int) -> Picture:
         " clamp; circle: the hole, where the inlet pressure holds. The lower half mirrors the upper one.",
         figure,
     )
+
+
+def _span(film: np.ndarray) -> str:
+    """Lowest to highest pressure of the film in few characters."""
+    texts = ("0" if abs(p) < 0.005 else f"{p:.2g}" if p < 0 else f"{p:.3g}" for p in (film.min(), film.max()))
+    return " to ".join(texts).replace("-", "\u2212")
 
 
 def _outline(form: Planform) -> Outline:
@@ -90,8 +101,9 @@ def parts_picture(variant: Variant, model: str, problems: list[str]) -> Picture:
     own = [gap for gap in gaps if np.isclose(gap, paper.GAP_STUDY_MM, rtol=1e-6).any()]
     gaps = own or gaps[: len(paper.GAP_STUDY_MM)]
     rows = math.ceil(len(gaps) / 2)
-    figure, grid = new_figure(34.0 * rows + 18.0, rows, 2, sharex=True, sharey=True, squeeze=False)
+    figure, grid = new_figure(34.0 * rows + 18.0, rows, 2, sharex=True, sharey=True)
     mates = []
+    forces, lengths = np.zeros(0), np.zeros(0)
     for number, gap in enumerate(gaps):
         axes = grid.flat[number]
         mate = axes.twinx()
@@ -110,14 +122,18 @@ def parts_picture(variant: Variant, model: str, problems: list[str]) -> Picture:
         mate.plot(time, 1e3 * result.trace("displacement_mm", case), color=VERMILLION, ls=(0, (1, 1)), lw=1.0)
         event = closing_event_ms(result, case)
         axes.set_xlim(event - 0.5, event + 4.0)
-    _share(mates)
+        shown = (time >= event - 0.5) & (time <= event + 4.0)
+        forces = np.concatenate([forces, *(result.trace(f"part_{part}_n", case)[shown] for part, *_ in PARTS)])
+        lengths = np.append(lengths, 1e3 * result.trace("displacement_mm", case)[shown])
+    if len(forces):
+        _same_zero(grid[0, 0], mates, forces, lengths)
     for axes in list(grid.flat)[len(gaps) :]:
         axes.set_visible(False)
     for axes in grid[-1]:
         axes.set_xlabel("time (ms)")
     figure.supylabel("force (N)", fontsize=8)
     for number, mate in enumerate(mates):
-        mate.tick_params(axis="y", colors=VERMILLION, labelright=number % 2 == 1)
+        mate.tick_params(axis="y", colors=VERMILLION, right=number % 2 == 1, labelright=number % 2 == 1)
         if number % 2 and number // 2 == (rows - 1) // 2:
             mate.set_ylabel("displacement (µm)", color=VERMILLION)
     handles = [Line2D([], [], color=color, ls=line, label=label) for _, label, color, line in PARTS]
@@ -131,11 +147,12 @@ def parts_picture(variant: Variant, model: str, problems: list[str]) -> Picture:
     )
 
 
-def _share(mates: list) -> None:
-    """The same displacement scale in all panels, wide enough for the swing below rest, not for that on opening."""
-    steady = [float(line.get_ydata()[line.get_xdata() <= mate.get_xlim()[0]][-1]) for mate in mates for line in mate.lines]
-    for mate in mates if steady else []:
-        mate.set_ylim(-0.2 * max(steady), 1.15 * max(steady))
+def _same_zero(axes, mates: list, forces: np.ndarray, lengths: np.ndarray) -> None:
+    """Scales on which all that is shown fits and zero is at one height."""
+    below = max(0.05, *(-1.15 * float(np.nanmin(v) / np.nanmax(v)) for v in (forces, lengths)))
+    axes.set_ylim(-below * float(np.nanmax(forces)), 1.08 * float(np.nanmax(forces)))
+    for mate in mates:
+        mate.set_ylim(-below * float(np.nanmax(lengths)), 1.08 * float(np.nanmax(lengths)))
 
 
 def models_picture(series: list[Series]) -> Picture | None:
@@ -150,24 +167,25 @@ def models_picture(series: list[Series]) -> Picture | None:
         inlet, fea = ([row[name] for row in rows] for name in ("inlet_kpa", "fea_ms"))
         low, high = paper.mesh_scatter(measure).percent
         axes.fill_between(inlet, [t * (1 + low / 100) for t in fea], [t * (1 + high / 100) for t in fea],
-                          color=GREY, alpha=0.3, lw=0, label="their mesh scatter at 20 kPa")  # fmt: skip
+                          color=GREY, alpha=0.3, lw=0, label="mesh scatter (20 kPa)")  # fmt: skip
         axes.plot(inlet, fea, color=BLACK, ls="", marker="x", mew=1.2, label="finite elements")
         axes.plot(inlet, [row["proposed_ms"] for row in rows], color=BLUE, ls="", marker="o", mfc="white",
-                  label="paper's model (fitted)")  # fmt: skip
+                  label="paper's fitted model")  # fmt: skip
         for s in curves:
             kind = look(s.model)
             light = {"alpha": 0.55, "lw": 0.9} if s.edge else {}
             axes.plot(inlet, [s.value(measure, p) for p in inlet], color=kind.color, ls=kind.line,
-                      label=f"{s.label}, ours", **light)  # fmt: skip
+                      label=s.label, **light)  # fmt: skip
         axes.set_ylabel(f"{quantity} (ms)")
         axes.set_ylim(bottom=0.0)
     grid[1, 0].set_xlabel("inlet pressure (kPa)")
     grid[1, 0].set_xlim(0.0, 42.0)
     handles, labels = grid[0, 0].get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside upper center", ncols=2, columnspacing=1.5)
+    handles, labels = [handles[i] for i in (1, 0)] + handles[2:], [labels[i] for i in (1, 0)] + labels[2:]
+    figure.legend(handles, labels, loc="outside upper center", ncols=2, columnspacing=1.2, handlelength=1.8)
     return Picture(
         "all_models_against_pressure",
-        f"Fall and closing time of all models against inlet pressure, gap {paper.GAP_MM:g} mm. The band is the scatter of"
-        " the finite elements' meshes, known at 20 kPa only, in per cent.",
+        f"Fall and closing time of all models against inlet pressure, gap {paper.GAP_MM:g} mm. The band is the scatter"
+        " of the finite elements' meshes, known at 20 kPa only, in per cent.",
         figure,
     )

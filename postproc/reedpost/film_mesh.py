@@ -87,10 +87,16 @@ def inlet_kpa(result: Result, case: int, time_ms: float) -> float:
     return high + (low - high) * min(max((time_ms - event) / ramp, 0.0), 1.0)
 
 
-def whole_reed(result: Result, case: int = 0) -> Mesh:
-    """The land on both sides of the symmetry line, and the hole as a fan about its centre."""
+def whole_reed(result: Result, case: int = 0, pieces: int = 1) -> Mesh:
+    """The land on both sides of the symmetry line, and the hole as a fan about its centre.
+
+    With `pieces` each cell's side is cut into as many; `finer` gives a field there.
+    """
     x, y, faces = half_land(result)
     form = planform(result, case)
+    if pieces > 1 and (spread := _spread(faces, len(x), pieces)) is not None:
+        x, y = spread.matrix @ x, spread.matrix @ y
+        faces = _cells(spread.rays, spread.rings)
     n = len(x)
     on_line = np.abs(y) < 1e-9 * form.length
     mirrored = np.where(on_line, np.arange(n), n + np.cumsum(~on_line) - 1)
@@ -98,11 +104,55 @@ def whole_reed(result: Result, case: int = 0) -> Mesh:
     xs = np.append(np.concatenate([x, x[~on_line]]), form.centre)
     ys = np.append(np.concatenate([y, -y[~on_line]]), 0.0)
     quads = np.concatenate([faces, mirrored[faces][:, ::-1]])
-    rim = np.flatnonzero(np.abs(np.hypot(xs - form.centre, ys) - form.hole_radius) < 1e-6 * form.hole_radius)
+    rim = np.flatnonzero(np.abs(np.hypot(xs - form.centre, ys) - form.hole_radius) < 1e-3 * form.hole_radius)
     rim = rim[np.argsort(np.arctan2(ys[rim], xs[rim] - form.centre))]
     fan = np.column_stack([np.full(len(rim), len(xs) - 1), rim, np.roll(rim, -1)])
     land = np.where(xs[quads].mean(axis=1) < form.root, LAND_A, LAND_B)
     return Mesh(xs, ys, quads, fan, np.append(land, np.full(len(fan), HOLE_C)), source)
+
+
+def finer(result: Result, pressure: np.ndarray, pieces: int) -> np.ndarray:
+    """A nodal field of the half land on the nodes of whole_reed with `pieces`, before mirroring."""
+    _, _, faces = half_land(result)
+    spread = _spread(faces, len(pressure), pieces)
+    return pressure if spread is None else spread.matrix @ pressure
+
+
+@dataclass(frozen=True)
+class _Spread:
+    """From the stored nodes to a finer mesh of `rays` x `rings` nodes."""
+
+    matrix: np.ndarray
+    rays: int
+    rings: int
+
+
+def _cells(rays: int, rings: int) -> np.ndarray:
+    """Cells between neighbours of nodes numbered along the rays."""
+    first = (np.arange(rays - 1)[:, None] * rings + np.arange(rings - 1)).ravel()
+    return first[:, None] + np.array([0, 1, rings + 1, rings])
+
+
+def _spread(faces: np.ndarray, nodes: int, pieces: int) -> _Spread | None:
+    """The quadratic elements' own interpolation; None for a mesh that is not of rays and rings."""
+    rings = int(faces[0, 3] - faces[0, 0])
+    rays = nodes // rings if rings > 0 else 0
+    known = rays * rings == nodes and rays % 2 == 1 and rings % 2 == 1
+    if not known or not np.array_equal(faces, _cells(rays, rings)):
+        return None
+    around, across = _quadratic(rays, pieces), _quadratic(rings, pieces)
+    return _Spread(np.kron(around, across), len(around), len(across))
+
+
+def _quadratic(nodes: int, pieces: int) -> np.ndarray:
+    """Interpolation matrix of quadratic elements, each over three of the nodes."""
+    at = np.arange((nodes - 1) * pieces + 1) / pieces
+    first = np.minimum(2 * (at // 2).astype(int), nodes - 3)
+    t = at - first
+    matrix = np.zeros((len(at), nodes))
+    for i, shape in enumerate(((t - 1) * (t - 2) / 2, t * (2 - t), t * (t - 1) / 2)):
+        matrix[np.arange(len(at)), first + i] = shape
+    return matrix
 
 
 def land_means(result: Result, case: int, pressure: np.ndarray) -> tuple[float, float]:
@@ -115,5 +165,6 @@ def land_means(result: Result, case: int, pressure: np.ndarray) -> tuple[float, 
     area = np.abs((x[faces] @ ds) * (y[faces] @ dt) - (x[faces] @ dt) * (y[faces] @ ds))
     root = x[faces] @ shape < planform(result, case).root
     values = pressure[faces] @ shape
-    means = [float((area * values)[part].sum() / area[part].sum()) if part.any() else math.nan for part in (root, ~root)]
-    return means[0], means[1]
+    loads = area * values
+    a, b = (float(loads[part].sum() / area[part].sum()) if part.any() else math.nan for part in (root, ~root))
+    return a, b

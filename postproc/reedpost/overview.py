@@ -65,7 +65,8 @@ def all_series(results: list[Result]) -> list[Series]:
                 if series.count and series.count > (found[series.label].count if series.label in found else 0):
                     found[series.label] = series
     order = [*paper.LUMPED_MODELS[::-1], *paper.FILM_MODELS]
-    return sorted(found.values(), key=lambda s: (s.edge != 0.0, order.index(s.model) if s.model in order else 99, s.label))
+    place = {model: number for number, model in enumerate(order)}
+    return sorted(found.values(), key=lambda s: (s.edge != 0.0, place.get(s.model, len(place)), s.label))
 
 
 def _series(variant: Variant, model: str, case: int) -> Series:
@@ -126,7 +127,9 @@ def _steady_tables(series: list[Series]) -> list[Table]:
         "overview_steady", f"Steady tip displacement at {pressure:g} kPa, gap {paper.GAP_MM:g} mm: all models",
         [*columns, Column("steady_vs_fea_percent", "against FE", "%", "+.1f")], rows=rows,
     )  # fmt: skip
-    table.notes.append("The finite elements' steady displacement is in Table I only. The paper's k_a = 0.91 is a fitted coefficient.")
+    table.notes.append(
+        "The finite elements' steady displacement is in Table I only. The paper's k_a = 0.91 is a fitted coefficient."
+    )
     if any(number(row[2]) > 30.0 for row in rows):
         table.notes.append("The film models' excess is an open discrepancy; it is not tuned away.")
     return [table]

@@ -9,8 +9,9 @@ import numpy as np
 
 from reedpost import __version__
 from reedpost.compare import compare
-from reedpost.discrepancies import DISCREPANCIES
+from reedpost.discrepancies import discrepancies
 from reedpost.figures import draw, draw_all
+from reedpost.overview import overview_tables
 from reedpost.picture import Picture
 from reedpost.results import Result
 from reedpost.style import svg_bytes
@@ -44,25 +45,28 @@ VERSIONS = (
     ("library_versions", "libraries"),
 )
 
-DERIVED = ("stiffness_n_m", "reed_mass_kg", "added_mass_kg", "added_damping_n_s_m", "reynolds", "wet_frequency_hz")
+DERIVED = ("stiffness_n_m", "reed_mass_kg", "added_mass_kg", "added_damping_n_s_m", "reynolds", "wet_frequency_hz",
+           "lowest_film_kpa")  # fmt: skip
 
 
 def build_report(results: list[Result]) -> tuple[str, bool]:
     """The page, and whether every result holds all that it should."""
     sections, complete = [], True
+    together = _together(results)
     for number, result in enumerate(results, start=1):
         section, whole = _section(result, number)
         sections.append(section)
         complete = complete and whole
     titles = [result.attribute("title") or result.folder.name for result in results]
     contents = "".join(f'<li><a href="#run{i}">{escape(title)}</a></li>' for i, title in enumerate(titles, start=1))
+    contents = f'<li><a href="#all">All models</a></li>{contents}' if together else contents
     verdict = (
         "All cases are there and none failed."
         if complete
         else '<span class="bad">Some cases are missing or failed; see the marked lines.</span>'
     )
     open_points = "\n".join(
-        f"<dt><strong>{escape(title)}</strong></dt><dd>{escape(text)}</dd>" for title, text in DISCREPANCIES
+        f"<dt><strong>{escape(title)}</strong></dt><dd>{escape(text)}</dd>" for title, text in discrepancies(results)
     )
     page = f"""<!DOCTYPE html>
 <html lang="en">
@@ -76,7 +80,7 @@ def build_report(results: list[Result]) -> tuple[str, bool]:
 <h1>Cantilever reed valve: ours beside the paper's</h1>
 <p>{verdict} "Published" are the paper's own models, FE its finite elements.</p>
 <ol>{contents}<li><a href="#open">Open discrepancies</a></li></ol>
-{"".join(sections)}
+{together}{"".join(sections)}
 <h2 id="open">Open discrepancies</h2>
 <dl>
 {open_points}
@@ -86,6 +90,15 @@ def build_report(results: list[Result]) -> tuple[str, bool]:
 </html>
 """
     return page, complete
+
+
+def _together(results: list[Result]) -> str:
+    """All models of all results beside each other; empty when there is nothing to compare."""
+    tables, album = overview_tables(results), draw_all(results)
+    if not tables:
+        return ""
+    parts = ['<h2 id="all">All models</h2>', *map(_figure, album.pictures), *map(as_html, tables)]
+    return "\n".join(parts) + "\n"
 
 
 def _section(result: Result, number: int) -> tuple[str, bool]:

@@ -101,6 +101,22 @@ class Result:
             return ""
         return _text(self.dataset["message"].isel(case=case).values.item())
 
+    def warnings(self) -> list[str]:
+        """Names of the warnings that cases may carry."""
+        return list(self._masks())
+
+    def warned(self, name: str) -> np.ndarray:
+        """Which cases carry a warning."""
+        mask = self._masks().get(name, 0)
+        return (self.measure("warnings").astype(int) & mask) != 0 if mask else np.zeros(self.count, bool)
+
+    def _masks(self) -> dict[str, int]:
+        if "warnings" not in self.dataset:
+            return {}
+        attributes = self.dataset["warnings"].attrs
+        masks = np.atleast_1d(attributes.get("flag_masks", [])).astype(int)
+        return dict(zip(str(attributes.get("flag_meanings", "")).split(), masks.tolist(), strict=False))
+
     def time(self) -> np.ndarray:
         """Times of the traces [ms]."""
         return self.dataset["time_ms"].values.astype(float)

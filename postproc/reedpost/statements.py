@@ -53,7 +53,8 @@ def parts_statements(variant: Variant, model: str) -> Table | None:
     if len(cases) > 1:
         closing = result.measure("closing_ms")[list(cases.values())]
         text = f"{closing[0]:.2f} to {closing[-1]:.2f} ms"
-        table.rows.append(["the wider the gap the faster it closes", "at every step", text, yes(is_monotone_fall(closing))])
+        holds = yes(is_monotone_fall(closing))
+        table.rows.append(["the wider the gap the faster it closes", "at every step", text, holds])
         table.rows.append(_swings(result, cases))
     if narrow is not None:
         opening, closing = (float(result.measure(f"{name}_ms")[narrow]) for name in ("opening", "closing"))
@@ -84,7 +85,9 @@ def _stays_below(result: Result, case: int, table: Table) -> list[str]:
     hole = result.trace("part_c_n", case)
     crossings = [part_exceeds_hole_ms(result, case, part) for part in "ab"]
     first = min((t for t in crossings if not math.isnan(t)), default=math.nan)
-    text = "throughout the ramp" if math.isnan(first) else f"until {first:.2f} ms, {end - first:.2f} ms before the ramp ends"
+    text = "throughout the ramp"
+    if not math.isnan(first):
+        text = f"until {first:.2f} ms, {end - first:.2f} ms before the ramp ends"
     late = float(np.nanmax(parts[closing_window(result, case) & (time >= end)]))
     table.notes.append(
         f"At {WIDE_MM:.2f} mm the force on C is zero once the ramp has ended ({end:g} ms); A or B then reach"

@@ -108,7 +108,8 @@ def as_text(table: Table) -> str:
 def as_markdown(table: Table) -> str:
     """A Markdown section with the table, its remarks and its problems."""
     heads = [f"{c.head} [{c.unit}]" if c.unit else c.head for c in table.columns]
-    rows = [heads, [":---" if c.words else "---:" for c in table.columns], *_texts(table, table.rows), *_texts(table, table.footer)]
+    rule = [":---" if c.words else "---:" for c in table.columns]
+    rows = [heads, rule, *_texts(table, table.rows), *_texts(table, table.footer)]
     lines = [f"## {table.title}", ""]
     lines += ["| " + " | ".join(text.replace("|", "\\|") for text in row) + " |" for row in rows]
     lines += [""] if table.notes or table.problems else []
