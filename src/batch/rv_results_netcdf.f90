@@ -180,7 +180,7 @@ contains
       class(netcdf_writer), intent(inout) :: self
       type(manifest_type), intent(in) :: manifest
 
-      call global("Conventions", "CF-1.10")
+      call global("Conventions", "CF-1.10"//trim(merge(" UGRID-1.0", "          ", size(manifest%fields%x) > 0)))
       call global("title", manifest%title)
       call global("deck_name", manifest%deck_name)
       call global("deck", manifest%deck)
