@@ -89,11 +89,7 @@ contains
       call begin_step(problem, history%start, y, outcome%status == status_ok, step)
       call new_measure_lanes(measures, history%start, history%event, min(history%cycle_end, settings%t_end), &
          & steady_state(problem), step%u1)
-      if (present(field_time)) then
-         call new_sampler(sampler, trace_time, field_time, problem%lanes)
-      else
-         call new_sampler(sampler, trace_time, [real(wp) ::], problem%lanes)
-      end if
+      call new_sampler(sampler, trace_time, problem%lanes, field_time)
       call sampler%sample(step, problem%lanes, history)
 
       if (any(outcome%status == status_ok)) then

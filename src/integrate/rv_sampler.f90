@@ -22,17 +22,19 @@ module rv_sampler
 
 contains
 
-   pure subroutine new_sampler(self, time, field_time, lanes)
+   pure subroutine new_sampler(self, time, lanes, field_time)
       type(sampler_type), intent(out) :: self
-      real(wp), intent(in) :: time(:), field_time(:)
+      real(wp), intent(in) :: time(:)
       class(valve_lanes), intent(in) :: lanes
+      real(wp), intent(in), optional :: field_time(:)
       real(wp) :: nan
 
       nan = ieee_value(1.0_wp, ieee_quiet_nan)
       self%time = time
-      self%field_time = field_time
+      self%field_time = [real(wp) ::]
+      if (present(field_time)) self%field_time = field_time
       allocate(self%value(size(time), lanes%traces, lanes%width), source=nan)
-      allocate(self%field(lanes%nodes, size(field_time), lanes%width), source=nan)
+      allocate(self%field(lanes%nodes, size(self%field_time), lanes%width), source=nan)
    end subroutine new_sampler
 
    !> Fill the grids up to the end of a step. A step of no length samples its instant.
