@@ -10,12 +10,13 @@ module rv_block
    use rv_error, only : error_type
    use rv_cases, only : deck_type
    use rv_columns, only : column_type, measure_columns, fact_columns, trace_columns, n_facts, n_traces
-   use rv_keys, only : n_keys, kind_trace, key_run_start, key_run_t_end_ms, key_run_traces, key_run_trace_dt_ms, &
+   use rv_keys, only : n_keys, from_si, to_si, kind_trace, key_run_start, key_run_t_end_ms, key_run_traces, key_run_trace_dt_ms, &
       & key_run_block_size, key_pressure_kind, key_pressure_period_ms, key_pressure_transition_ms, key_pressure_file, &
       & key_pressure_event_ms, key_solver_rtol, key_solver_max_steps, key_solver_width
    use rv_lanes, only : lane_outcome, run_lanes
    use rv_lumped, only : lumped_lanes, lumped_valve, new_lumped_lanes
    use rv_measures, only : n_measures
+   use rv_number, only : tidy
    use rv_pressure, only : pressure_history
    use rv_sort, only : sorted_order
    use rv_status, only : status_ok, status_bad_case
@@ -158,7 +159,10 @@ contains
       call time_span(deck, start, finish)
       dt = deck%value(key_run_trace_dt_ms)
       n = int((finish - start)/dt*(1.0_wp + 1.0e-12_wp) + 1.0e-6_wp)
-      time = [(min(start + real(k, wp)*dt, finish), k = 0, n)]
+      ! the decimal of a grid time is that of a t_end: a case that ends on the grid has its last sample
+      time = to_si(key_run_trace_dt_ms, tidy(from_si(key_run_trace_dt_ms, start) &
+         & + real([(k, k = 0, n)], wp)*from_si(key_run_trace_dt_ms, dt)))
+      time = max(start, min(time, finish))
    end function trace_times
 
    !> Earliest start and latest end over the deck's axes; all combinations of an axis' values lie in between.
