@@ -87,7 +87,7 @@ def _data_notes(variant: Variant, model: str) -> list[str]:
             other.append(f"film.gap_mm = {gaps[0]:g} instead of {paper.GAP_MM:g} (Sec. III A)")
     notes = ["NOT THE PAPER'S DATA AS READ HERE:", *(f"- {line}" for line in other)] if other else []
     if model in paper.FILM_MODELS:
-        load = result.value("hydro.load", case) or "the model's own"
+        load = result.value("hydro.load", case) or paper.FILM_LOAD
         edge = result.value("film.edge_elongation", case)
         edge = f"{edge:g}" if isinstance(edge, float) else "unknown"
         notes.append(f"Nothing is fitted: no k_a, no k_s. Hydrodynamic load: {load}; edge elongation: {edge}.")

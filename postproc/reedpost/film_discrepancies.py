@@ -50,8 +50,8 @@ def _steady(film: Series | None) -> tuple[str, str]:
     return (
         f"Open: the film models' steady displacement is {excess:.0f} % above the finite elements'",
         f"At 20 kPa the reed opens to {value:.4f} mm{source}, in the finite elements to {reference:.4f} mm (Table I,"
-        " the only one printed). Inlet losses, slits, Poisson's ratio, film inertia, edge effects and a lower pressure on"
-        " the land were each tried and cannot account for it. A reed stiffer by 1.37 would (h = 0.167 mm instead of"
+        " the only one printed). Inlet losses, slits, Poisson's ratio, film inertia, edge effects and a lower pressure"
+        " on the land were each tried and cannot account for it. A reed stiffer by 1.37 would (h = 0.167 mm instead of"
         " 0.15, or a = 2.0 mm instead of 2.5), but nothing in the paper says so, and it does not settle the times:"
         " with h = 0.1667 mm the film model gives 0.0951 mm, fall times -10 to +4 % and closing times -12 to -16 %"
         " of the finite elements'; with an edge elongation of 0.65 besides, 0.0947 mm, +5 to +19 % and -2 to +2 %."

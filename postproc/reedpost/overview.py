@@ -14,7 +14,6 @@ from reedpost.tables import Cell, Column, Table, as_csv, as_markdown, percent
 from reedpost.time_tables import SWEEPS, add_errors
 
 FEWEST = 4  # pressures of Tables III and IV that a curve must hold
-MODEL_LOAD = "maali"  # hydrodynamic load of film models unless the deck says otherwise
 
 
 @dataclass(frozen=True)
@@ -75,7 +74,7 @@ def _series(variant: Variant, model: str, case: int) -> Series:
         value, load = (variant.result.value(key, case) for key in ("film.edge_elongation", "hydro.load"))
         edge = value if isinstance(value, float) else 0.0
         label += f", edge {edge:g}" if edge else ""
-        label += f", {load}" if isinstance(load, str) and load != MODEL_LOAD else ""
+        label += f", {load}" if isinstance(load, str) and load != paper.FILM_LOAD else ""
     return Series(label, model, edge, variant)
 
 

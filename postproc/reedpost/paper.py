@@ -22,6 +22,7 @@ HISTORY_KPA = (10.0, 20.0, 30.0)  # Fig. 12
 RATE_FROM_MS, RATE_TO_MS = 1.5, 3.0  # Eq. (28), after the closing event
 PUBLISHED = {"squeeze": "proposed", "traditional": "traditional"}  # model -> column of the paper
 FILM_MODELS = ("film", "film_table")
+FILM_LOAD = "maali"  # hydrodynamic load of film models unless the deck says otherwise
 LUMPED_MODELS = tuple(PUBLISHED)
 LUMPED_STEADY_MM = 0.0933  # at 20 kPa, Eqs. (18) and (19) with Table II; not printed in the paper
 

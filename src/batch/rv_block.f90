@@ -8,18 +8,18 @@ module rv_block
    use, intrinsic :: ieee_arithmetic, only : ieee_is_nan, ieee_value, ieee_quiet_nan
    use rv_kinds, only : wp, i8
    use rv_error, only : error_type
-   use rv_case_facts, only : case_facts
+   use rv_case_facts, only : case_facts, add_note
    use rv_cases, only : deck_type
    use rv_columns, only : column_type, measure_columns, fact_columns, trace_columns, n_facts, n_traces, n_lumped_traces
    use rv_film_case, only : planform_cache, planform_key, n_planform, mesh_nodes
-   use rv_keys, only : n_keys, model_film, model_film_table, key_film_mesh, &
-      & key_run_model, key_run_start, key_run_t_end_ms, key_run_traces, &
-      & key_run_trace_dt_ms, key_run_block_size, key_film_gap_mm, key_film_vapour_pressure_kpa, &
-      & key_fluid_viscosity_pa_s, key_pressure_kind, key_pressure_inlet_kpa, key_pressure_period_ms, &
-      & key_pressure_transition_ms, key_pressure_file, key_pressure_event_ms, key_solver_rtol, key_solver_max_steps, &
-      & key_solver_width
+   use rv_keys, only : n_keys, from_si, to_si, model_film, model_film_table, key_film_mesh, key_run_model, &
+      & key_run_start, key_run_t_end_ms, key_run_traces, key_run_trace_dt_ms, key_run_block_size, key_film_gap_mm, &
+      & key_film_vapour_pressure_kpa, key_fluid_viscosity_pa_s, key_pressure_kind, key_pressure_inlet_kpa, &
+      & key_pressure_period_ms, key_pressure_transition_ms, key_pressure_file, key_pressure_event_ms, &
+      & key_solver_rtol, key_solver_max_steps, key_solver_width
    use rv_lanes, only : lane_outcome, run_lanes
    use rv_measures, only : n_measures
+   use rv_number, only : tidy
    use rv_pressure, only : pressure_history
    use rv_sort, only : sorted_order
    use rv_status, only : status_ok, status_bad_case, warn_cavitation
@@ -136,16 +136,25 @@ contains
       end do
    end subroutine run_group
 
-   !> Results of one lane. A failure's reason goes before warnings.
+   !> Results of one lane. A failure's reason stands before the warnings.
    subroutine note_outcome(value, facts, outcome, lane, place, result)
       real(wp), intent(in) :: value(n_keys)
-      type(case_facts), intent(in) :: facts
+      type(case_facts), intent(inout) :: facts
       type(lane_outcome), intent(in) :: outcome
       integer, intent(in) :: lane, place
       type(block_result), intent(inout) :: result
-      real(wp) :: lowest
       integer :: traces
 
+      associate (lowest => outcome%lowest_pressure(lane))
+         if (lowest < huge(lowest)) then
+            facts%fact(n_facts) = lowest
+            if (lowest < value(key_film_vapour_pressure_kpa)) then
+               facts%warnings = ior(facts%warnings, warn_cavitation)
+               call add_note(facts, "the film's pressure falls to "//to_text(1.0e-3_wp*lowest, 4) &
+                  & //" kPa, below the vapour pressure: the oil would cavitate")
+            end if
+         end if
+      end associate
       traces = size(outcome%trace, 2)
       result%fact(:, place) = facts%fact
       result%measure(:, place) = outcome%measure(:, lane)
@@ -153,22 +162,10 @@ contains
       result%warnings(place) = facts%warnings
       result%trace(:, :traces, place) = outcome%trace(:, :, lane)
       if (size(outcome%field, 1) > 0) result%field(:, :, place) = outcome%field(:, :, lane)
-      if (allocated(facts%note)) result%message(place)%s = facts%note
-      lowest = outcome%lowest_pressure(lane)
-      if (lowest < huge(lowest)) then
-         result%fact(n_facts, place) = lowest
-         if (lowest < value(key_film_vapour_pressure_kpa)) then
-            result%warnings(place) = ior(result%warnings(place), warn_cavitation)
-            if (result%message(place)%s == "") then
-               result%message(place)%s = "warning: "
-            else
-               result%message(place)%s = result%message(place)%s//"; "
-            end if
-            result%message(place)%s = result%message(place)%s//"the film's pressure falls to " &
-               & //to_text(1.0e-3_wp*lowest, 4)//" kPa, below the vapour pressure: the oil would cavitate"
-         end if
-      end if
-      if (outcome%status(lane) /= status_ok) result%message(place)%s = outcome%message(lane)%s
+      result%message(place)%s = outcome%message(lane)%s
+      if (.not. allocated(facts%note)) return
+      if (outcome%status(lane) /= status_ok) result%message(place)%s = result%message(place)%s//"; "
+      result%message(place)%s = result%message(place)%s//facts%note
    end subroutine note_outcome
 
    subroutine prepare(deck, result, first, n, times)
@@ -205,7 +202,10 @@ contains
       call deck%time_span(start, finish)
       dt = deck%value(key_run_trace_dt_ms)
       n = int((finish - start)/dt*(1.0_wp + 1.0e-12_wp) + 1.0e-6_wp)
-      time = [(min(start + real(k, wp)*dt, finish), k = 0, n)]
+      ! the decimal of a grid time is that of a t_end: a case that ends on the grid has its last sample
+      time = to_si(key_run_trace_dt_ms, tidy(from_si(key_run_trace_dt_ms, start) &
+         & + real([(k, k = 0, n)], wp)*from_si(key_run_trace_dt_ms, dt)))
+      time = max(start, min(time, finish))
    end function trace_times
 
    !> Values in a trace sample: those of the film models only where one runs.

@@ -111,9 +111,12 @@ contains
             call fail(error, rv_bad_input, "more than "//to_text(nint(most_periods))//" periods in one run")
             return
          end if
-         call new_square_wave(wave, value(key_pressure_period_ms), value(key_pressure_transition_ms), error)
-         if (allocated(error)) return
-         if (.not. ieee_is_nan(value(key_pressure_event_ms))) wave%event = value(key_pressure_event_ms)
+         if (ieee_is_nan(value(key_pressure_event_ms))) then
+            call new_square_wave(wave, value(key_pressure_period_ms), value(key_pressure_transition_ms), error)
+         else
+            call new_square_wave(wave, value(key_pressure_period_ms), value(key_pressure_transition_ms), error, &
+               & value(key_pressure_event_ms))
+         end if
          allocate(history, source=wave)
       end if
       if (allocated(error)) return

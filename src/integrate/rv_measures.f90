@@ -20,12 +20,15 @@ module rv_measures
    real(wp), parameter :: up_level(n_up) = [0.10_wp, 0.90_wp, 0.98_wp]              !! while opening [-]
    real(wp), parameter :: down_level(n_down) = [0.90_wp, 0.10_wp, 0.02_wp, 0.0_wp]  !! while closing [-]
 
+   real(wp), parameter :: noise = 10.0_wp  !! global error over the tolerance of a step, at most
+
    !> Crossings and extremes found so far; arrays are (width) or (levels, width).
    type :: measure_lanes
       private
       real(wp) :: start = 0.0_wp      !! first instant [s]
       real(wp) :: event = 0.0_wp      !! start of the closing event [s]
       real(wp) :: cycle_end = 0.0_wp  !! end of what is measured [s]
+      real(wp) :: resolution = 0.0_wp !! displacements below it, relative to the steady one, are noise [-]
       real(wp), allocatable :: reached(:)         !! last instant seen [s]
       real(wp), allocatable :: steady(:)          !! [m]
       real(wp), allocatable :: up(:, :)           !! instants of the upward crossings [s]
@@ -42,11 +45,12 @@ module rv_measures
 contains
 
    !> Begin at the initial state. An event nearer to an end than an integrator would stop for lies on that end.
-   pure subroutine new_measure_lanes(self, start, event, cycle_end, steady, u)
+   pure subroutine new_measure_lanes(self, start, event, cycle_end, steady, u, rtol)
       type(measure_lanes), intent(out) :: self
       real(wp), intent(in) :: start, event, cycle_end   !! [s]
       real(wp), intent(in) :: steady(:)                 !! [m]
       real(wp), intent(in) :: u(:)                      !! initial displacement [m]
+      real(wp), intent(in), optional :: rtol            !! tolerance of the integration [-]; 0 unless given
       real(wp) :: closest
 
       self%start = start
@@ -56,6 +60,7 @@ contains
       if (abs(event - start) <= closest) self%event = start
       if (abs(event - cycle_end) <= closest) self%event = cycle_end
       self%steady = steady
+      if (present(rtol)) self%resolution = noise*rtol
       allocate(self%up(n_up, size(u)), self%down(n_down, size(u)))
       self%up = ieee_value(1.0_wp, ieee_quiet_nan)
       self%down = self%up(1, 1)
@@ -206,23 +211,35 @@ contains
    end subroutine find_peak
 
    !> The measures of lane i in the order of n_measures: m, s, s, m, s, s, s, m, N.
+   !>
+   !> A reed that creeps home comes within the integration's error of zero and may cross it there by chance: without
+   !> an undershoot above that error it has not come to zero.
    pure function results(self, i) result(measure)
       class(measure_lanes), intent(in) :: self
       integer, intent(in) :: i
       real(wp) :: measure(n_measures)
+      real(wp) :: least
 
+      least = self%resolution*abs(self%steady(i))
       measure = ieee_value(1.0_wp, ieee_quiet_nan)
       measure(1) = self%steady(i)
       measure(2) = self%up(2, i) - self%up(1, i)
       measure(3) = self%up(3, i) - self%start
       if (self%steady(i) > 0.0_wp .and. self%event > self%start .and. self%reached(i) >= self%event) then
-         measure(4) = max(0.0_wp, self%highest(i) - self%steady(i))
+         measure(4) = above(self%highest(i) - self%steady(i), least)
       end if
       measure(5) = self%down(2, i) - self%down(1, i)
       measure(6) = self%down(3, i) - self%event
-      measure(7) = self%down(4, i) - self%event
-      if (self%reached(i) > self%event) measure(8) = max(0.0_wp, -self%lowest(i))
+      if (-self%lowest(i) > least) measure(7) = self%down(4, i) - self%event
+      if (self%reached(i) > self%event) measure(8) = above(-self%lowest(i), least)
       measure(9) = self%largest_force(i)
    end function results
+
+   !> x, or zero where it is not above `least`.
+   pure real(wp) function above(x, least)
+      real(wp), intent(in) :: x, least
+
+      above = merge(x, 0.0_wp, x > max(least, 0.0_wp))
+   end function above
 
 end module rv_measures

@@ -81,17 +81,23 @@ contains
       real(wp), intent(in) :: period       !! T [s], > 0
       real(wp), intent(in) :: transition   !! t_d [s], 0 < t_d < T/2
       type(error_type), allocatable, intent(out) :: error
-      real(wp), intent(in), optional :: event  !! start of the closing event [s]; T/2 - t_d/2 unless given
+      real(wp), intent(in), optional :: event  !! start of the closing event [s], >= 0; T/2 - t_d/2 unless given
+      real(wp) :: start
 
       if (.not. (period > 0.0_wp .and. transition > 0.0_wp .and. transition < 0.5_wp*period)) then
          call fail(error, rv_bad_input, "a square wave needs 0 < transition < period/2")
          return
       end if
+      start = 0.5_wp*(period - transition)
+      if (present(event)) start = event
+      if (.not. start >= 0.0_wp) then
+         call fail(error, rv_bad_input, "the closing event must not start before the square wave does, at 0")
+         return
+      end if
       self%period = period
       self%transition = transition
-      self%event = 0.5_wp*(period - transition)
-      if (present(event)) self%event = event
-      self%cycle_end = max(self%event, period - 0.5_wp*transition)
+      self%event = start
+      self%cycle_end = period*(1.0_wp + aint((start + 0.5_wp*transition)/period)) - 0.5_wp*transition
    end subroutine new_square_wave
 
    !> R(t) and 1. Only the distance to the nearest centre of a ramp matters, so that R is exact at the corners.

@@ -14,6 +14,7 @@ program test_response
    call stefan_closure()
    call energy_balance()
    call equilibrium_stays()
+   call creeping_home()
    call suite%finish()
 
 contains
@@ -190,5 +191,21 @@ contains
       call suite%close("no overshoot [mm]", outcome%measure(4, 1)/mm, 0.0_wp, 0.0_wp, 1.0e-3_wp*settings%rtol)
       call suite%true("no rise, no opening", all(.not. abs(outcome%measure(2:3, 1)) >= 0.0_wp))
    end subroutine equilibrium_stays
+
+   !> A narrow gap lets the reed creep home from above: no crossing of zero, no undershoot, though rounding makes some.
+   subroutine creeping_home()
+      type(lane_outcome) :: outcome
+      type(lane_settings) :: settings
+      real(wp) :: none(0)
+      integer :: i
+
+      settings%t_end = 40.0_wp*ms
+      call run_lumped([(valve_at(20.0_wp*kpa, (0.04_wp + 0.01_wp*real(i, wp))*mm, 0.0075_wp), i = 1, 6)], wave_40ms(), &
+         & settings, none, outcome)
+      call suite%true("gaps up to 0.08 mm: the reed does not come to zero", &
+         & all(.not. abs(outcome%measure(7, :4)) >= 0.0_wp) .and. all(abs(outcome%measure(8, :4)) <= 0.0_wp))
+      call suite%true("gaps of 0.09 and 0.10 mm: it swings through", &
+         & all(outcome%measure(7, 5:) > outcome%measure(6, 5:)) .and. all(outcome%measure(8, 5:) > 1.0e-4_wp*mm))
+   end subroutine creeping_home
 
 end program test_response

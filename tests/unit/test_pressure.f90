@@ -136,7 +136,12 @@ contains
       call close_list("event after the end", wave%stops(5.0_wp*ms), [0.5_wp, 5.0_wp]*ms)
       call new_square_wave(wave, 40.0_wp*ms, ms, error, event=59.5_wp*ms)
       call suite%no_error("event in the second cycle", error)
-      call suite%close("cycle end not before the event [s]", wave%cycle_end, 59.5_wp*ms, rtol=0.0_wp, atol=0.0_wp)
+      call suite%close("end of the second closing [s]", wave%cycle_end, 79.5_wp*ms, rtol=1.0e-15_wp, atol=0.0_wp)
+      call new_square_wave(wave, 40.0_wp*ms, ms, error, event=39.4_wp*ms)
+      call suite%close("end of a closing just before the rise [s]", wave%cycle_end, 39.5_wp*ms, rtol=1.0e-15_wp, atol=0.0_wp)
+      call new_square_wave(wave, 40.0_wp*ms, ms, error, event=-ms)
+      call suite%fails("event before the wave", error, "must not start before")
+      call suite%close("a default wave is left", wave%event + wave%cycle_end, 0.0_wp, rtol=0.0_wp, atol=0.0_wp)
    end subroutine test_square_events
 
    !> The pressure difference swings between that of R = 0 and that of R = 1.
