@@ -156,9 +156,12 @@ def _same_zero(axes, mates: list, forces: np.ndarray, lengths: np.ndarray) -> No
 
 
 def models_picture(series: list[Series]) -> Picture | None:
-    """Fall and closing time of all models against pressure; None when there is but one model."""
+    """Fall and closing time of all models against pressure; None when one result holds all there is.
+
+    That result has a picture of its own, of the same curves.
+    """
     curves = [s for s in series if s.count >= FEWEST]
-    if len(curves) < 2:
+    if len({s.variant.result.folder for s in curves}) < 2:
         return None
     figure, grid = new_figure(132.0, 2, 1, sharex=True)
     for axes, key in zip(grid[:, 0], SWEEPS, strict=True):
