@@ -131,14 +131,14 @@ contains
       if (allocated(error)) error stop "the wave is refused"
    end function some_wave
 
-   !> n even steps from a to b: n + 1 knots.
+   !> The ends of n even steps from a to b.
    pure function even(a, b, n) result(knot)
       real(wp), intent(in) :: a, b
       integer, intent(in) :: n
-      real(wp) :: knot(0:n)
+      real(wp) :: knot(n)
       integer :: k
 
-      knot = [(a + (b - a)*(real(k, wp)/real(n, wp)), k = 0, n)]
+      knot = [(a + (b - a)*(real(k, wp)/real(n, wp)), k = 1, n)]
       knot(n) = b
    end function even
 

@@ -34,7 +34,7 @@ contains
 
       self%width = width
       self%dofs = dofs
-      self%traces = 2
+      self%traces = 3
       allocate(self%inlet(width), source=1.0_wp)
       allocate(self%outlet(width), self%squeeze(width), self%lowest_pressure(width), source=0.0_wp)
       allocate(self%gap(width), source=no_film_gap)
@@ -125,7 +125,7 @@ contains
       v_scale = 1.0_wp
    end subroutine scales
 
-   !> Tip displacement [m] and velocity [m s-1].
+   !> Tip displacement [m], velocity [m s-1] and pressure difference [Pa].
    subroutine trace_values(self, lane, inlet, outlet, q, v, value)
       class(spring_valve), intent(inout) :: self
       integer, intent(in) :: lane
@@ -133,9 +133,7 @@ contains
       real(wp), intent(in) :: q(self%dofs), v(self%dofs)
       real(wp), intent(out) :: value(self%traces)
 
-      associate (unused => [inlet, outlet, real(lane, wp)])
-      end associate
-      value = [dot_product(self%tip, q), dot_product(self%tip, v)]
+      value = [dot_product(self%tip, q), dot_product(self%tip, v), self%inlet(lane)*inlet - self%outlet(lane)*outlet]
    end subroutine trace_values
 
    subroutine silence(self, lane)

@@ -35,6 +35,7 @@ program test_measures
    call extremes_inside_a_step()
    call no_overshoot()
    call still_opening()
+   call late_start()
    call event_at_start()
    call ended_before_event()
    call ended_in_the_fall()
@@ -52,7 +53,7 @@ contains
    subroutine parabola_levels()
       real(wp) :: m(n_measures), up(3), down(4)
 
-      m = measures_of(parabola, [even(0.0_wp, 10.0_wp, 7), even(10.0_wp, 19.0_wp, 5)])
+      m = measures_of(parabola, [0.0_wp, even(0.0_wp, 10.0_wp, 7), even(10.0_wp, 19.0_wp, 5)])
       up = 10.0_wp*sqrt([0.1_wp, 0.9_wp, 0.98_wp]/1.2_wp)
       down = 8.0_wp*sqrt(1.0_wp - [0.9_wp, 0.1_wp, 0.02_wp, 0.0_wp]/1.2_wp)
       call suite%close("steady", m(steady), u_ref, 0.0_wp, 0.0_wp)
@@ -71,7 +72,7 @@ contains
       real(wp) :: m(n_measures), up(3), down(4)
       real(wp), parameter :: limit = 1.0e-8_wp   ! h = 0.08
 
-      m = measures_of(swing, [even(0.0_wp, 5.0_wp*pi, 200), even(5.0_wp*pi, 10.5_wp*pi, 220)])
+      m = measures_of(swing, [0.0_wp, even(0.0_wp, 5.0_wp*pi, 200), even(5.0_wp*pi, 10.5_wp*pi, 220)])
       up = acos((0.65_wp - [0.1_wp, 0.9_wp, 0.98_wp])/0.75_wp)
       down = acos(([0.9_wp, 0.1_wp, 0.02_wp, 0.0_wp] - 0.65_wp)/0.75_wp)
       call suite%close("rise of the first swing", m(rise), up(2) - up(1), 0.0_wp, limit)
@@ -88,6 +89,7 @@ contains
       real(wp) :: m(n_measures)
       real(wp), parameter :: knot(11) = [0.0_wp, 0.5_wp, 1.0_wp, 9.0_wp, 9.8_wp, 10.0_wp, 11.0_wp, 19.0_wp, 19.8_wp, 20.0_wp, &
          & 20.5_wp]
+      type(curve_type), parameter :: even_rise = curve_type(event=1.0_wp, before=[0.0_wp, 1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp])
 
       m = measures_of(straight, knot)
       call suite%close("rise, knots at the levels", m(rise), 8.0_wp, 16.0_wp*ulp, 0.0_wp)
@@ -99,6 +101,9 @@ contains
       call suite%close("a run that ends at zero got there", m(zero), 10.0_wp, 16.0_wp*ulp, 0.0_wp)
       m = measures_of(curve_type(event=1.0_wp, after=[2.0_wp, -1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp]), [1.0_wp, 2.0_wp, 4.0_wp])
       call suite%close("from the steady displacement at a knot on: zero", m(zero), 2.0_wp, 16.0_wp*ulp, 0.0_wp)
+      m = measures_of(even_rise, [0.0_wp, 0.1_wp, 0.9_wp, 0.98_wp])   ! u(0.9) is 90 % of u_ref to the last bit
+      call suite%close("levels met to the last bit: rise", m(rise), 0.8_wp, 16.0_wp*ulp, 0.0_wp)
+      call suite%close("and opening, at the end of the run", m(opening), 0.98_wp, 16.0_wp*ulp, 0.0_wp)
    end subroutine steps_end_at_levels
 
    !> One step over each turn: the knots alone show neither the extreme nor the crossings beside it.
@@ -112,8 +117,11 @@ contains
       call suite%close("fall before the turn", m(fall), (sqrt(1.4_wp) - sqrt(0.6_wp))/sqrt(1.4375_wp), 32.0_wp*ulp, 0.0_wp)
       call suite%close("zero before the turn", m(zero), 1.0_wp - sqrt(0.5_wp/1.4375_wp), 64.0_wp*ulp, 0.0_wp)
       call suite%close("undershoot inside a step", m(undershoot), 0.5_wp*u_ref, 32.0_wp*ulp, 0.0_wp)
-      m = measures_of(hop, [0.0_wp, 0.02_wp, 0.6_wp, 1.5_wp, 3.0_wp])
-      call suite%close("opening after the turn does not count", m(opening), 1.0_wp - sqrt(0.216_wp), 32.0_wp*ulp, 0.0_wp)
+      m = measures_of(curve_type(event=9.0_wp, before=hop%before), [0.0_wp, 3.2_wp])
+      call suite%close("opening early in a step that ends far down", m(opening), 1.0_wp - sqrt(0.216_wp), 32.0_wp*ulp, 0.0_wp)
+      m = measures_of(curve_type(event=9.0_wp, before=[1.0_wp, -0.3_wp, 0.15_wp, 0.0_wp, 0.0_wp, 0.0_wp]), [0.0_wp, 3.0_wp])
+      call suite%close("down to 85 % and up to 98 % in one step: opening", m(opening), 1.0_wp + sqrt(0.13_wp/0.15_wp), &
+         & 32.0_wp*ulp, 0.0_wp)
    end subroutine extremes_inside_a_step
 
    !> Never above the steady displacement before the event, never below rest after it: zero, not missing.
@@ -127,17 +135,27 @@ contains
       call suite%close("but 2 %", m(closing), 10.0_wp - 0.225_wp, 16.0_wp*ulp, 0.0_wp)
    end subroutine no_overshoot
 
-   !> The event finds the reed half way up and still rising; it turns 2 s later.
+   !> The event finds the reed half way up and still rising; it turns 2 s later and closes in the same step.
    subroutine still_opening()
       real(wp) :: m(n_measures)
 
       m = measures_of(curve_type(event=10.0_wp, before=[0.0_wp, 0.05_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp], &
-         & after=[0.5_wp, 0.05_wp, -0.0125_wp, 0.0_wp, 0.0_wp, 0.0_wp]), [0.0_wp, 10.0_wp, 13.0_wp, 19.0_wp])
+         & after=[0.5_wp, 0.05_wp, -0.0125_wp, 0.0_wp, 0.0_wp, 0.0_wp]), [0.0_wp, 10.0_wp, 19.0_wp])
       call suite%close("overshoot of a reed that is still opening", m(overshoot), 0.0_wp, 0.0_wp, 0.0_wp)
       call suite%true("it has no rise, no opening and no fall", all(ieee_is_nan(m([rise, opening, fall]))))
       call suite%close("but closes", m(closing), 2.0_wp + sqrt(42.4_wp), 32.0_wp*ulp, 0.0_wp)
       call suite%close("to zero", m(zero), 2.0_wp + sqrt(44.0_wp), 32.0_wp*ulp, 0.0_wp)
    end subroutine still_opening
+
+   !> A run that begins late and high: times count from its start, its first instant counts as overshoot.
+   subroutine late_start()
+      real(wp) :: m(n_measures)
+
+      m = measures_of(straight, [0.5_wp, 10.0_wp])
+      call suite%close("opening counts from the start of the run", m(opening), 9.3_wp, 16.0_wp*ulp, 0.0_wp)
+      m = measures_of(curve_type(event=3.0_wp, before=[1.3_wp, -0.1_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp]), [0.0_wp, 1.0_wp, 3.0_wp])
+      call suite%close("overshoot of the first instant", m(overshoot), 0.3_wp*u_ref, 32.0_wp*ulp, 0.0_wp)
+   end subroutine late_start
 
    !> Open from the start: nothing rises; the fall is measured from the first step on.
    subroutine event_at_start()
@@ -182,11 +200,14 @@ contains
 
       level = [-0.3_wp, 0.0_wp, ieee_value(1.0_wp, ieee_quiet_nan)]
       do i = 1, 3
-         m = measures_of(hop, [even(0.0_wp, 1.5_wp, 5), even(1.5_wp, 3.0_wp, 5)], steady=level(i))
+         m = measures_of(hop, [0.0_wp, even(0.0_wp, 1.5_wp, 5), even(1.5_wp, 3.0_wp, 5)], steady=level(i))
          call suite%true("steady displacement "//trim(name(i))//": nothing relative to it", all(ieee_is_nan(m(rise:zero))))
          call suite%close("undershoot all the same", m(undershoot), 0.5_wp*u_ref, 32.0_wp*ulp, 0.0_wp)
       end do
       call suite%true("no steady displacement", ieee_is_nan(m(steady)))
+      m = measures_of(curve_type(event=1.0_wp, before=[-0.5_wp, 0.5_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp]), &
+         & [0.0_wp, 0.5_wp, 1.0_wp], steady=-0.3_wp)
+      call suite%true("nor on the way up from below", all(ieee_is_nan(m(rise:zero))))
    end subroutine no_way_up
 
    !> The curve goes on to zero, a new opening and a new closing after the cycle's end: nothing changes.
@@ -194,7 +215,7 @@ contains
       real(wp) :: cycle(n_measures), more(n_measures), whole(n_measures)
       real(wp), parameter :: end = 5.0_wp*pi + 2.0_wp
 
-      associate (knot => [even(0.0_wp, 5.0_wp*pi, 200), even(5.0_wp*pi, end, 20)], rest => even(end, 10.5_wp*pi, 200))
+      associate (knot => [0.0_wp, even(0.0_wp, 5.0_wp*pi, 200), even(5.0_wp*pi, end, 20)], rest => even(end, 10.5_wp*pi, 200))
          cycle = measures_of(swing, knot)
          more = measures_of(swing, [knot, rest], cycle_end=end)
          whole = measures_of(swing, [knot, rest])
@@ -214,10 +235,10 @@ contains
    subroutine lanes_apart()
       real(wp), parameter :: factor(4) = [1.0_wp, -2.0_wp, 0.25_wp, 1.0_wp], film(4) = [0.0_wp, 0.0_wp, 0.0_wp, 5.0e-13_wp]
       type(measure_lanes) :: together, alone
-      real(wp) :: knot(20)
+      real(wp) :: knot(19)
       integer :: i
 
-      knot = [even(0.0_wp, 1.5_wp, 9), even(1.5_wp, 3.0_wp, 9)]
+      knot = [0.0_wp, even(0.0_wp, 1.5_wp, 9), even(1.5_wp, 3.0_wp, 9)]
       call feed(together, hop, knot, lanes_of(film), factor, abs(factor)*u_ref)
       do i = 1, size(factor)
          call feed(alone, hop, knot, lanes_of(film(i:i)), factor(i:i), abs(factor(i:i))*u_ref)
@@ -240,10 +261,10 @@ contains
       integer :: i, k
 
       lanes = lanes_of([5.0e-13_wp, 5.0e-13_wp])
-      long = measures_of(hop, [even(0.0_wp, 1.5_wp, 6), even(1.5_wp, 3.0_wp, 6)], squeeze=5.0e-13_wp)
+      long = measures_of(hop, [0.0_wp, even(0.0_wp, 1.5_wp, 6), even(1.5_wp, 3.0_wp, 6)], squeeze=5.0e-13_wp)
       do i = 1, 2
          last = real(i, wp)   ! before, after the event at 1.5
-         associate (knot => [even(0.0_wp, 1.5_wp, 6), even(1.5_wp, 3.0_wp, 6)])
+         associate (knot => [0.0_wp, even(0.0_wp, 1.5_wp, 6), even(1.5_wp, 3.0_wp, 6)])
             associate (seen => pack(knot, knot <= last))
                short = measures_of(hop, seen, cycle_end=3.0_wp, squeeze=5.0e-13_wp)
                call feed(measures, hop, seen, lanes, both, both*u_ref, cycle_end=3.0_wp)
@@ -287,14 +308,14 @@ contains
 
       c = (1.5_wp - sqrt(1.5_wp**2 + 24.0_wp))/4.0_wp   ! 2 c^2 - 1.5 c - 3 = 0
       force = squeeze/u_ref**2*sqrt(1.0_wp - c**2)/(c + 1.5_wp)**3
-      m = measures_of(cosine, even(0.0_wp, 6.3_wp, 40), squeeze=squeeze)
+      m = measures_of(cosine, [0.0_wp, even(0.0_wp, 6.3_wp, 40)], squeeze=squeeze)
       call suite%close("largest film force, inside a step", m(peak), force, 1.0e-6_wp, 0.0_wp)
-      m = measures_of(cosine, even(0.0_wp, 6.3_wp, 160), squeeze=squeeze)
+      m = measures_of(cosine, [0.0_wp, even(0.0_wp, 6.3_wp, 160)], squeeze=squeeze)
       call suite%close("steps a quarter as long", m(peak), force, 1.0e-9_wp, 0.0_wp)
-      m = measures_of(cosine, even(0.0_wp, 2.0_wp, 20), squeeze=squeeze)
+      m = measures_of(cosine, [0.0_wp, even(0.0_wp, 2.0_wp, 20)], squeeze=squeeze)
       call suite%close("a run that ends before the peak: at its end", m(peak), &
          & squeeze/u_ref**2*sin(2.0_wp)/(cos(2.0_wp) + 1.5_wp)**3, 64.0_wp*ulp, 0.0_wp)
-      cut = measures_of(cosine, [even(0.0_wp, 2.0_wp, 20), even(2.0_wp, 6.3_wp, 40)], cycle_end=2.0_wp, squeeze=squeeze)
+      cut = measures_of(cosine, [0.0_wp, even(0.0_wp, 2.0_wp, 20), even(2.0_wp, 6.3_wp, 40)], cycle_end=2.0_wp, squeeze=squeeze)
       call suite%close("a cycle that ends before the peak: at its end too", cut(peak), m(peak), 0.0_wp, 0.0_wp)
    end subroutine film_force_peak
 

@@ -12,12 +12,16 @@ program test_sampler
    use spring_lanes, only : spring_valve, new_spring_valve
    implicit none
    type(suite_type) :: suite
+   type(square_wave) :: history
+   type(error_type), allocatable :: error
    integer, parameter :: dofs = 2
    !> A quintic, which dense output meets exactly; every displacement of every lane is a multiple of it.
    real(wp), parameter :: curve(0:5) = [1.0_wp, -0.5_wp, 0.25_wp, 0.125_wp, -0.0625_wp, 0.03125_wp]
    real(wp), parameter :: knot(6) = [1.0_wp, 1.1_wp, 1.5_wp, 2.5_wp, 2.6_wp, 3.0_wp]
    real(wp), parameter :: limit = 64.0_wp*epsilon(1.0_wp)
 
+   call new_square_wave(history, 10.0_wp, 4.0_wp, error)   ! falls from 3 s on
+   call suite%no_error("a wave", error)
    call inside()
    call before_and_after()
    call at_the_ends()
@@ -29,7 +33,7 @@ contains
 
    !> Many samples in one step and none in another: displacement and velocity of the tip of each lane.
    subroutine inside()
-      real(wp) :: time(9), u
+      real(wp) :: time(9), u, p, outlet
       type(sampler_type) :: sampler
       integer :: i, lane
 
@@ -40,6 +44,8 @@ contains
             u = tip_factor(lane)*value_at(curve, time(i))
             call suite%close("tip of lane "//to_text(lane)//" at "//to_text(time(i))//" s", sampler%value(i, 1, lane), u, &
                & limit, 0.0_wp)
+            call history%factors(time(i), p, outlet)
+            call suite%close("its pressure then", sampler%value(i, 3, lane), 10.0_wp*real(lane, wp)*p - outlet, limit, 0.0_wp)
          end do
          call suite%close("largest error of its velocity", maxval([(abs(sampler%value(i, 2, lane) &
             & - tip_factor(lane)*value_at(derivative(curve), time(i))), i=1, size(time))]), 0.0_wp, 0.0_wp, 16.0_wp*limit)
@@ -69,8 +75,10 @@ contains
          call suite%close("sample on knot "//to_text(i), sampler%value(i, 1, 1), value_at(curve, knot(i)), limit, 0.0_wp)
       end do
       call sampled(sampler, [1.0_wp, 2.0_wp], steps=0)
-      call suite%close("the start, without a step", sampler%value(1, 1, 1), value_at(curve, 1.0_wp), limit, 0.0_wp)
-      call suite%close("its velocity", sampler%value(1, 2, 1), value_at(derivative(curve), 1.0_wp), limit, 0.0_wp)
+      do i = 1, 3
+         call suite%close("the start, without a step", sampler%value(1, 1, i), tip_factor(i)*value_at(curve, 1.0_wp), limit, 0.0_wp)
+         call suite%close("its velocity", sampler%value(1, 2, i), tip_factor(i)*value_at(derivative(curve), 1.0_wp), limit, 0.0_wp)
+      end do
       call suite%true("no more than that", all(ieee_is_nan(sampler%value(2, :, :))))
    end subroutine at_the_ends
 
@@ -107,13 +115,12 @@ contains
       integer, intent(in), optional :: steps          !! all unless given
       real(wp), intent(in), optional :: fails_at      !! instant from which the second lane is out
       type(spring_valve) :: lanes
-      type(square_wave) :: history
       type(step_type) :: step
-      type(error_type), allocatable :: error
       integer :: k, last
 
-      call new_square_wave(history, 40.0_wp, 1.0_wp, error)
       call new_spring_valve(lanes, 3, dofs)
+      lanes%inlet = [10.0_wp, 20.0_wp, 30.0_wp]
+      lanes%outlet = 1.0_wp
       lanes%tip = [2.0_wp, -1.0_wp]
       last = size(knot)
       if (present(steps)) last = 1 + steps
