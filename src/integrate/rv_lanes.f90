@@ -22,11 +22,21 @@ module rv_lanes
    private
    public :: lane_settings, lane_outcome, run_lanes
 
+   !> Steps below this part of the time to integrate, so many in a row, are no progress: a film that closes draws the
+   !> steps to the instant of its closing, for ever where rounding keeps its last gap open.
+   real(wp), parameter :: no_progress = 1.0e-13_wp
+   integer, parameter :: patience = 10
+   integer(c_int), parameter :: rv_stuck = -1000_c_int  !! beside ARKODE's flags: its steps are no progress
+
    !> Butcher table: fifth order, stiffly accurate, L-stable (Kennedy & Carpenter 2019, doi:10.1016/j.apnum.2018.10.007).
    !> Not its relatives ESDIRK547L2SA and ESDIRK436L2SA: they have a stage behind the end of the step, which at a corner
    !> of the pressure sees what comes after it and costs them their order (2 in place of 5). The longer steps of
    !> ARK548L2SA would leave the dense output less accurate than the steps.
    character(len=*), parameter :: butcher_table = "ARKODE_ESDIRK547L2SA2_7_4_5"
+
+   !> A step cut by a closed film and shorter than this part of the run: the film closes, however long one would creep on.
+   real(wp), parameter :: shortest = 1.0e-9_wp
+   integer(c_int), parameter :: rv_film_blocks = -1000   !! beside ARKODE's flags
 
    !> How to integrate.
    type :: lane_settings
@@ -58,6 +68,8 @@ module rv_lanes
       real(wp), allocatable :: v_weight(:, :)                !! last error weights of v
       integer :: failed = 0                                !! lane whose stage had no solution last
       logical :: closed = .false.                          !! because its film was closed
+      integer :: blocked = 0                               !! lane whose closed film cut an attempt at this step
+      integer :: hindrance = 0                             !! lane whose stage had no solution most recently
    end type problem_type
 
 contains
@@ -160,12 +172,19 @@ contains
       real(c_double) :: t, y_new(size(y))
       character(len=:), allocatable :: reason
       integer(c_int) :: flag
-      integer :: k
+      integer :: k, short
 
       k = 1
+      short = 0
       do while (k <= size(stops))
          t = step%t1
          flag = rv_arkode_step(integrator, stops(k), t, y_new)
+         short = merge(short + 1, 0, t - step%t1 < no_progress*(settings%t_end - problem%history%start))
+         if (short == 0 .and. allocated(problem%lanes%closure)) deallocate(problem%lanes%closure)
+         if (flag >= 0 .and. short >= patience) then
+            flag = rv_stuck
+            problem%failed = problem%hindrance
+         end if
          if (flag >= 0 .and. all(ieee_is_finite(y_new))) then
             y = y_new
             if (flag == rv_at_stop) t = stops(k)
@@ -181,6 +200,7 @@ contains
                & "after "//to_text(outcome%steps)//" steps at t = "//to_text(t, 6)//" s: &solver max_steps reached")
             return
          end if
+         short = 0
          call take_out(problem, integrator, flag, step, y, y_new, outcome)
          if (all(outcome%status /= status_ok)) return
          if (rv_arkode_restart(integrator, step%t1, y) < 0) then
@@ -212,19 +232,21 @@ contains
          end do
          status = status_not_finite
          reason = "the state is not finite"
-      else if (problem%failed > 0) then
+      else
          lane = problem%failed
          status = status_no_convergence
-         call get_arkode_message(integrator, reason)
-         if (problem%closed) then
-            status = status_film_closed
-            reason = "the film under the reed has closed; its tip is at u = " &
-               & //to_text(1.0e3_wp*step%u1(lane), 6)//" mm"
+         if (lane == 0) then
+            lane = rv_arkode_worst_lane(integrator) + 1
+            status = status_step_too_small
          end if
-      else
-         lane = rv_arkode_worst_lane(integrator) + 1
-         status = status_step_too_small
          call get_arkode_message(integrator, reason)
+         if (flag == rv_stuck) reason = "the steps no longer move the time"
+         if (film_has_closed(problem, step%u1(lane), lane)) then
+            status = status_film_closed
+            reason = "the film under the reed is closed at its tip"
+            if (allocated(problem%lanes%closure)) reason = problem%lanes%closure
+            reason = reason//"; its tip is at u = "//to_text(1.0e3_wp*step%u1(lane), 6)//" mm"
+         end if
       end if
       if (outcome%status(lane) /= status_ok) then   ! no live lane is to blame: nothing can be saved
          call fail_rest(outcome, status, "at t = "//to_text(t, 6)//" s: "//reason)
@@ -234,9 +256,20 @@ contains
       outcome%message(lane)%s = "at t = "//to_text(t, 6)//" s: "//reason
       call problem%lanes%silence(lane)
       problem%failed = 0
+      problem%hindrance = 0
       y(lane::w) = 0.0_wp
       call begin_step(problem, t, y, outcome%status == status_ok, step)
    end subroutine take_out
+
+   !> Told by the lane's stage or its model since the last step that was progress, or seen at the tip.
+   pure logical function film_has_closed(problem, u, lane) result(closed)
+      type(problem_type), intent(in) :: problem
+      real(wp), intent(in) :: u          !! tip displacement [m]
+      integer, intent(in) :: lane
+      real(wp), parameter :: left = 1.0e-2_wp   !! of the gap, under the tip
+
+      closed = problem%closed .or. allocated(problem%lanes%closure) .or. u < (left - 1.0_wp)*problem%lanes%gap(lane)
+   end function film_has_closed
 
    subroutine fail_rest(outcome, status, message)
       type(lane_outcome), intent(inout) :: outcome
@@ -349,6 +382,7 @@ contains
       rhs = 0
       if (closed == 0) return
       problem%failed = closed
+      problem%hindrance = closed
       problem%closed = .true.
       rhs = 1
    end function rhs
@@ -368,6 +402,8 @@ contains
          call solve_stage(problem%lanes, inlet, outlet, gamma, base(:n), base(n + 1:2*n), problem%v_weight, &
             & z(:n), z(n + 1:2*n), problem%failed, problem%closed)
       end associate
+      if (problem%failed > 0) problem%hindrance = problem%failed
+      if (problem%failed > 0 .and. problem%closed) problem%blocked = problem%failed
       stage = merge(0_c_int, 1_c_int, problem%failed == 0)
    end function stage
 
