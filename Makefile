@@ -1,7 +1,7 @@
 # `make demo` and `make test` set up everything they need; tools/bootstrap says what that is.
 venv := build/venv/bin
 reedvalve := build/release/drivers/reedvalve/reedvalve
-decks := table_3_4 gap_study response table_5
+decks := table_3_4 film_tables gap_study film_gap_study film_fields film_edge response table_5
 demo := results/demo
 # Matplotlib keeps its font list here, not in the home folder, which need not exist.
 export MPLCONFIGDIR := $(abspath build/matplotlib)
