@@ -97,7 +97,7 @@ contains
    end subroutine acceleration
 
    subroutine find_acceleration(self, inlet, outlet, q, v, a, state, closed)
-      type(film_lanes), intent(in) :: self
+      type(film_lanes), intent(inout) :: self
       real(wp), intent(in) :: inlet, outlet, q(:), v(:)
       real(wp), intent(out) :: a(:)
       type(film_state), intent(out) :: state
@@ -109,7 +109,10 @@ contains
       closed = 1
       a = 0.0_wp
       call self%reed%film%solve(self%valve%gap, self%valve%viscosity, q, state, error)
-      if (allocated(error)) return
+      if (allocated(error)) then
+         self%closure = error%message
+         return
+      end if
       closed = 0
       force(:, 1) = drop_of(self, inlet, outlet)*(self%reed%hole + state%land) &
          & - matmul(self%valve%damping + state%damping, v) - self%valve%stiffness*q

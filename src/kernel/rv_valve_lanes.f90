@@ -20,6 +20,7 @@ module rv_valve_lanes
       real(wp), allocatable :: gap(:)              !! g0 [m], (width)
       logical, allocatable :: has_film(:)          !! (width)
       real(wp), allocatable :: tip(:)              !! tip displacement per unit of each q, (dofs)
+      character(len=:), allocatable :: closure     !! a sentence of the film that was closed last: where
       real(wp), allocatable :: lowest_pressure(:)  !! lowest film pressure seen [Pa], huge if none was, (width)
    contains
       procedure(acceleration_of), deferred :: acceleration
