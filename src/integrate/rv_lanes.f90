@@ -34,10 +34,6 @@ module rv_lanes
    !> ARK548L2SA would leave the dense output less accurate than the steps.
    character(len=*), parameter :: butcher_table = "ARKODE_ESDIRK547L2SA2_7_4_5"
 
-   !> A step cut by a closed film and shorter than this part of the run: the film closes, however long one would creep on.
-   real(wp), parameter :: shortest = 1.0e-9_wp
-   integer(c_int), parameter :: rv_film_blocks = -1000   !! beside ARKODE's flags
-
    !> How to integrate.
    type :: lane_settings
       real(wp) :: t_end = 0.0_wp             !! [s]
@@ -68,7 +64,6 @@ module rv_lanes
       real(wp), allocatable :: v_weight(:, :)                !! last error weights of v
       integer :: failed = 0                                !! lane whose stage had no solution last
       logical :: closed = .false.                          !! because its film was closed
-      integer :: blocked = 0                               !! lane whose closed film cut an attempt at this step
       integer :: hindrance = 0                             !! lane whose stage had no solution most recently
    end type problem_type
 
@@ -403,7 +398,6 @@ contains
             & z(:n), z(n + 1:2*n), problem%failed, problem%closed)
       end associate
       if (problem%failed > 0) problem%hindrance = problem%failed
-      if (problem%failed > 0 .and. problem%closed) problem%blocked = problem%failed
       stage = merge(0_c_int, 1_c_int, problem%failed == 0)
    end function stage
 
