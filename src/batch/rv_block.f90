@@ -121,8 +121,9 @@ contains
 
       call new_case_lanes(value, cache, lanes, facts)
       call new_history(value(:, 1), deck%trace, history, error)
-      if (.not. allocated(error) .and. allocated(lanes)) &
-         & call run_lanes(lanes, history, settings_of(value(:, 1)), time, outcome, deck%field_times())
+      if (.not. allocated(error) .and. allocated(lanes)) then
+         call run_lanes(lanes, history, settings_of(value(:, 1)), time, outcome, deck%field_times())
+      end if
       lane = 0
       do i = 1, size(place)
          if (allocated(error) .and. .not. allocated(facts(i)%error)) facts(i)%error = error

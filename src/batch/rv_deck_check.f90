@@ -203,7 +203,7 @@ contains
          case (film_load)
             if (is_film .and. nint(value(key_hydro_load)) == load_published) text = setting(key_hydro_load, value) &
                & //" is a reading of the lumped models; the film models take 'maali', 'sader' or 'none'"
-         case (event_before_end)
+         case default
             if (event >= finish) text = setting(key_run_t_end_ms, value)//" ends the run before closing starts at " &
                & //to_text(1.0e3_wp*event, 6)//" ms; no closing is measured"
          end select
