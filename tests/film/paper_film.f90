@@ -10,6 +10,7 @@ module paper_film
    use rv_hydrodynamic_load, only : fluid_type, load_maali
    use rv_lanes, only : lane_outcome, lane_settings, run_lanes
    use rv_planform, only : planform_type, new_planform
+   use rv_pressure, only : pressure_history
    use rv_reynolds, only : film_type, new_film
    use rv_table_lanes, only : table_lanes, new_table_lanes
    use rv_valve_lanes, only : valve_lanes
@@ -84,19 +85,24 @@ contains
       one = 1.0_wp
    end function ones
 
-   !> Run one case of the film model.
-   subroutine run_film(reed, valve, settings, trace_time, outcome)
+   !> Run one case of the film model under the paper's wave or another history.
+   subroutine run_film(reed, valve, settings, trace_time, outcome, history)
       type(film_reed), intent(in) :: reed
       type(film_valve), intent(in) :: valve
       type(lane_settings), intent(in) :: settings
       real(wp), intent(in) :: trace_time(:)
       type(lane_outcome), intent(out) :: outcome
+      class(pressure_history), intent(in), optional :: history
       type(film_lanes) :: film
       class(valve_lanes), allocatable :: lanes
 
       call new_film_lanes(film, reed, valve)
       allocate(lanes, source=film)
-      call run_lanes(lanes, wave_40ms(), settings, trace_time, outcome)
+      if (present(history)) then
+         call run_lanes(lanes, history, settings, trace_time, outcome)
+      else
+         call run_lanes(lanes, wave_40ms(), settings, trace_time, outcome)
+      end if
    end subroutine run_film
 
    !> Run cases of the table model side by side.
