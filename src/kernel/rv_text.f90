@@ -29,7 +29,7 @@ contains
    !> The shortest decimal that reads back as `x`: 0.05, 1.5e-7, NaN, Infinity.
    pure function real_to_text(x) result(text)
       real(wp), intent(in) :: x
-      character(len=len_trim(shortest(x))) :: text
+      character(len=len_trim(shortest(x), i8)) :: text
 
       text = shortest(x)
    end function real_to_text
@@ -38,21 +38,21 @@ contains
    pure function rounded_to_text(x, digits) result(text)
       real(wp), intent(in) :: x
       integer, intent(in) :: digits           !! 1 to 17
-      character(len=len_trim(rounded(x, digits))) :: text
+      character(len=len_trim(rounded(x, digits), i8)) :: text
 
       text = rounded(x, digits)
    end function rounded_to_text
 
    pure function integer_to_text(i) result(text)
       integer, intent(in) :: i
-      character(len=len_trim(whole(int(i, i8)))) :: text
+      character(len=len_trim(whole(int(i, i8)), i8)) :: text
 
       text = whole(int(i, i8))
    end function integer_to_text
 
    pure function long_to_text(i) result(text)
       integer(i8), intent(in) :: i
-      character(len=len_trim(whole(i))) :: text
+      character(len=len_trim(whole(i), i8)) :: text
 
       text = whole(i)
    end function long_to_text
