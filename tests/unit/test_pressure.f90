@@ -16,6 +16,7 @@ program test_pressure
    call test_period()
    call test_square_stops()
    call test_square_events()
+   call test_event_stops()
    call test_square_span()
    call test_square_refused()
    call test_trace_values()
@@ -108,6 +109,27 @@ contains
       call close_list("two periods and a half", wave%stops(100.0_wp*ms), &
          & [0.5_wp, 19.5_wp, 20.5_wp, 39.5_wp, 40.5_wp, 59.5_wp, 60.5_wp, 79.5_wp, 80.5_wp, 99.5_wp, 100.0_wp]*ms)
    end subroutine test_square_stops
+
+   !> Event and cycle's end are stops to the last bit: no step begins before and ends after them by a rounding.
+   subroutine test_event_stops()
+      type(square_wave) :: wave
+      type(error_type), allocatable :: error
+      real(wp) :: period, transition
+      integer :: i, k, missed
+
+      missed = 0
+      do i = 1, 60
+         do k = 1, 20
+            period = real(i, wp)*ms/3.0_wp
+            transition = 0.021_wp*real(k, wp)*period
+            call new_square_wave(wave, period, transition, error)
+            associate (stop => wave%stops(1.2_wp*period))
+               if (all(abs(stop - wave%event) > 0.0_wp) .or. all(abs(stop - wave%cycle_end) > 0.0_wp)) missed = missed + 1
+            end associate
+         end do
+      end do
+      call suite%equal("waves whose event or cycle's end is no stop", missed, 0)
+   end subroutine test_event_stops
 
    !> The event is the start of the falling ramp unless given; given, it is a stop too.
    subroutine test_square_events()
