@@ -60,6 +60,7 @@ contains
       if (abs(event - start) <= closest) self%event = start
       if (abs(event - cycle_end) <= closest) self%event = cycle_end
       self%steady = steady
+      self%resolution = 0.0_wp
       if (present(rtol)) self%resolution = noise*rtol
       allocate(self%up(n_up, size(u)), self%down(n_down, size(u)))
       self%up = ieee_value(1.0_wp, ieee_quiet_nan)
@@ -230,16 +231,16 @@ contains
       end if
       measure(5) = self%down(2, i) - self%down(1, i)
       measure(6) = self%down(3, i) - self%event
-      if (-self%lowest(i) > least) measure(7) = self%down(4, i) - self%event
+      if (-self%lowest(i) >= least) measure(7) = self%down(4, i) - self%event
       if (self%reached(i) > self%event) measure(8) = above(-self%lowest(i), least)
       measure(9) = self%largest_force(i)
    end function results
 
-   !> x, or zero where it is not above `least`.
+   !> x, or zero where it is not above `least`; a `least` that is not known bounds nothing.
    pure real(wp) function above(x, least)
       real(wp), intent(in) :: x, least
 
-      above = merge(x, 0.0_wp, x > max(least, 0.0_wp))
+      above = merge(x, 0.0_wp, x > 0.0_wp .and. .not. x <= least)
    end function above
 
 end module rv_measures

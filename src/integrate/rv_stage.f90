@@ -75,7 +75,8 @@ contains
             correction = -(v(i) - base_v(i) - gamma*a(i))/(1.0_wp - gamma*(a_v(i) + gamma*a_q(i)))
             open(i) = .not. abs(correction)*weight(i) <= accuracy
             limit = -0.75_wp*(q(i) + lanes%gap(i))/gamma
-            v(i) = v(i) + max(correction, limit)
+            if (correction < limit) correction = limit   ! max() may drop a NaN
+            v(i) = v(i) + correction
          end do
          if (.not. any(open)) exit
       end do
