@@ -6,12 +6,12 @@ demo := results/demo
 # Matplotlib keeps its font list here, not in the home folder, which need not exist.
 export MPLCONFIGDIR := $(abspath build/matplotlib)
 
-.PHONY: help demo test bench build lint format bootstrap checks clean
+.PHONY: help demo test build bench lint format bootstrap checks clean
 help:
 	@echo "make demo      run the paper's cases, compare with its tables, write a report"
 	@echo "make test      build, then run all tests"
 	@echo "make build     build the program: $(reedvalve)"
-	@echo "make bench     cases per second beside SciPy (some minutes)"
+	@echo "make bench     cases per second, beside SciPy"
 	@echo "make lint      check format and style of the sources; make format puts them right"
 	@echo "make debug-test, sanitize-test, valgrind-test    the tests in builds with more checks"
 	@echo "make clean     remove build/ and results/"
