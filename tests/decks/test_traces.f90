@@ -1,15 +1,14 @@
 !> Histories stored by a deck: their grid of times, where they begin and end, what they hold, how they cut blocks.
 program test_traces
    use, intrinsic :: ieee_arithmetic, only : ieee_is_nan
-   use rv_kinds, only : wp, i8
-   use rv_error, only : error_type
-   use rv_faults, only : fault_list
+   use rv_kinds, only : wp, i8, pi
    use rv_deck, only : deck_type
    use rv_block, only : block_result, run_block, block_count, block_bounds, trace_times
-   use rv_status, only : status_ok
+   use rv_status, only : status_ok, status_bad_case, status_film_closed
    use rv_text, only : to_text
    use check, only : suite_type
-   use deck_trial, only : lines, read_trial, write_file
+   use deck_trial, only : lines, write_file
+   use block_trial, only : read_good
    implicit none
    type(suite_type) :: suite
    integer, parameter :: displacement = 1, velocity = 2, inlet = 3, outlet = 4, force = 5
@@ -24,6 +23,7 @@ program test_traces
    call what_they_hold()
    call without_traces()
    call of_files()
+   call starts()
    call bounds()
    call memory()
    call suite%finish()
@@ -40,6 +40,8 @@ contains
       call grid("a step longer than the run", "&run "//traces//"t_end_ms = 7, trace_dt_ms = 7.01 /", 1, last=0.0_wp)
       call grid("the longest of swept ends", "&run "//traces//"trace_dt_ms = 1 /" &
          & //"&sweep key = 'run.t_end_ms', values = 5, 13, 9 /", 14, last=13.0_wp)
+      call write_file("plan.csv", lines("film.gap_mm,run.t_end_ms~0.05,5~0.1,8~0.05,6~"))
+      call grid("the longest end of a plan", "&run "//traces//"trace_dt_ms = 1 /~&design file = 'plan.csv' /", 9, last=8.0_wp)
    end subroutine grids
 
    subroutine grid(what, text, n, last)
@@ -48,7 +50,7 @@ contains
       real(wp), intent(in), optional :: last   !! [ms]
       type(deck_type) :: deck
 
-      call read_good(text, deck)
+      call read_good(suite, text, deck)
       associate (time => trace_times(deck))
          call suite%equal(what//": samples", size(time), n)
          if (size(time) /= n .or. n == 0) return
@@ -62,8 +64,8 @@ contains
    subroutine grid_of_files()
       type(deck_type) :: deck
 
-      call read_good("&run "//traces//"trace_dt_ms = 0.25 /~&pressure kind = 'trace', event_ms = 3 /~" &
-         & //"&sweep key = 'pressure.file', values = 'late.csv', 'early.csv' /", deck)
+      call read_good(suite, "&run "//traces//"trace_dt_ms = 0.25 /~&pressure kind = 'trace', event_ms = 3 /~" &
+         & //"&sweep key = 'pressure.file', values = 'early.csv', 'late.csv' /", deck)
       associate (time => trace_times(deck))
          call suite%equal("samples from 1 to 8.5 ms", size(time), 31)
          call suite%close("first [ms]", time(1)/ms, 1.0_wp, 1.0e-15_wp, 0.0_wp)
@@ -79,7 +81,7 @@ contains
       integer, parameter :: t_end(6) = [1, 3, 9, 11, 13, 15]   !! [ms]
       logical :: exact
 
-      call read_good("&run "//traces//"trace_dt_ms = 0.05 /~&solver rtol = 1e-3 /~" &
+      call read_good(suite, "&run "//traces//"trace_dt_ms = 0.05 /~&solver rtol = 1e-3 /~" &
          & //"&sweep key = 'run.t_end_ms', values = 1, 3, 9, 11, 13, 15 /", deck)
       call run_block(deck, 1_i8, 6_i8, r)
       do i = 1, 6
@@ -100,7 +102,7 @@ contains
       real(wp) :: p, worst
       integer :: k
 
-      call read_good("&run model = 'squeeze', 'traditional', "//traces//" /~&pressure outlet_kpa = 3 /", deck)
+      call read_good(suite, "&run model = 'squeeze', 'traditional', "//traces//" /~&pressure outlet_kpa = 3 /", deck)
       call run_block(deck, 1_i8, 2_i8, r)
       associate (x => r%trace(:, :, 1), time => trace_times(deck))
          worst = maxval(abs(x(3:, displacement) - x(:1999, displacement) - 0.02_wp*ms/3.0_wp*(x(:1999, velocity) &
@@ -125,7 +127,7 @@ contains
       type(deck_type) :: deck
       type(block_result) :: r
 
-      call read_good("&run t_end_ms = 1 /", deck)
+      call read_good(suite, "&run t_end_ms = 1 /", deck)
       call run_block(deck, 1_i8, 1_i8, r)
       call suite%equal("samples without traces", size(r%trace, 1), 0)
       call suite%equal("cases all the same", size(r%trace, 3), 1)
@@ -135,20 +137,51 @@ contains
    subroutine of_files()
       type(deck_type) :: deck
       type(block_result) :: r
+      real(wp) :: open
       integer :: i
 
-      call read_good("&run "//traces//"trace_dt_ms = 0.25 /~&pressure kind = 'trace', event_ms = 3.5 /~" &
+      call read_good(suite, "&run "//traces//"trace_dt_ms = 0.25 /~&pressure kind = 'trace', event_ms = 3.5 /~" &
          & //"&sweep key = 'pressure.file', values = 'late.csv', 'early.csv' /", deck)
       call run_block(deck, 1_i8, 2_i8, r)
       call suite%true("both end well", all(r%status == status_ok))
       call suite%true("the late one from 2.5 ms on", all([(ieee_is_nan(r%trace(i, displacement, 1)) .eqv. i < 7, i=1, 31)]))
       call suite%true("the early one up to 6 ms", all([(ieee_is_nan(r%trace(i, displacement, 2)) .eqv. i > 21, i=1, 31)]))
-      call suite%close("both begin open by 20 kPa [mm]", r%trace(7, displacement, 1)/ms, r%trace(1, displacement, 2)/ms, &
-         & 1.0e-12_wp, 0.0_wp)
+      open = 20.0e3_wp*pi*0.25_wp*(4.0_wp*ms)**2/r%fact(1, 1)
+      call suite%close("the late one begins open by 20 kPa [mm]", r%trace(7, displacement, 1)/ms, open/ms, 1.0e-12_wp, 0.0_wp)
+      call suite%close("the early one too", r%trace(1, displacement, 2)/ms, open/ms, 1.0e-12_wp, 0.0_wp)
       call suite%close("outlet of the early one [kPa]", maxval(abs(r%trace(:21, outlet, 2)/1.0e3_wp - 10.0_wp)), 0.0_wp, &
          & 0.0_wp, 1.0e-12_wp)
       call suite%close("inlet of the late one at 4.5 ms [kPa]", r%trace(15, inlet, 1)/1.0e3_wp, 10.0_wp, 1.0e-12_wp, 0.0_wp)
    end subroutine of_files
+
+   !> Files of the same times and other pressures, in one block; a start at rest, and starts where the film is closed.
+   subroutine starts()
+      type(deck_type) :: deck
+      type(block_result) :: r
+      character(len=*), parameter :: head = "trace_dt_ms = 1 /~&pressure kind = 'trace', event_ms = 3 /~"
+
+      call write_file("shut.csv", lines("t_ms,p_diff_kpa~1,-20~2,-20~3,-20~4,-20~5,-20~6,-20~"))
+      call read_good(suite, "&run "//traces//head//"&sweep key = 'film.gap_mm', values = 0.05, 0.2 /" &
+         & //"&sweep key = 'pressure.file', values = 'early.csv', 'shut.csv' /", deck)
+      call run_block(deck, 1_i8, 4_i8, r)
+      call suite%true("the gap decides whether a reed can start shut", all(r%status == [status_ok, status_film_closed, status_ok, &
+         & status_ok]))
+      call suite%true("why not: "//r%message(2)%s, index(r%message(2)%s, "no static equilibrium to start from") > 0)
+      call suite%true("nothing is known of it", all(ieee_is_nan(r%trace(:, :, 2))) .and. all(ieee_is_nan(r%measure(:8, 2))))
+      call suite%close("the other stays where it is", maxval(abs(r%trace(:, displacement, 4) + 20.0e3_wp*pi*0.25_wp &
+         & *(4.0_wp*ms)**2/r%fact(1, 4))), 0.0_wp, 0.0_wp, 1.0e-9_wp)
+      call suite%true("and has its own file's pressure", all(r%trace(:, inlet, 4) < 0.0_wp))
+
+      call read_good(suite, "&run start = 'rest', "//traces//head//"&sweep key = 'pressure.file', values = 'early.csv' /", deck)
+      call run_block(deck, 1_i8, 1_i8, r)
+      call suite%close("at rest if wanted [m]", r%trace(1, displacement, 1), 0.0_wp, 0.0_wp, 0.0_wp)
+
+      call read_good(suite, "&pressure kind = 'trace', event_ms = 3, file = 'late.csv' /~" &
+         & //"&sweep key = 'run.t_end_ms', from = 8.5, to = 2.5, count = 10001 /", deck)
+      call run_block(deck, 10000_i8, 10001_i8, r)
+      call suite%true("a run that ends where its file begins is a bad case", all(r%status == [status_ok, status_bad_case]))
+      call suite%true("its reason: "//r%message(2)%s, index(r%message(2)%s, "before its pressure history starts") > 0)
+   end subroutine starts
 
    !> Blocks cover all cases once, in order, whatever their size: 1, a divisor, not a divisor, all, more than all.
    subroutine bounds()
@@ -168,7 +201,8 @@ contains
       integer(i8) :: first, last
 
       call covers("traces of 7.6 MiB a case", "&run "//traces//"trace_dt_ms = 2e-4 /", 5, 8)
-      call read_good("&run "//traces//"trace_dt_ms = 2e-5 /~&sweep key = 'film.gap_mm', values = 0.05, 0.1, 0.2 /", deck)
+      call covers("of which fewer are wanted", "&run "//traces//"trace_dt_ms = 2e-4, block_size = 6 /", 6, 6)
+      call read_good(suite, "&run "//traces//"trace_dt_ms = 2e-5 /~&sweep key = 'film.gap_mm', values = 0.05, 0.1, 0.2 /", deck)
       call suite%equal("traces of 76 MiB a case: blocks", block_count(deck), 3)
       call block_bounds(deck, 2, first, last)
       call suite%true("a case is a block", first == 2 .and. last == 2)
@@ -182,7 +216,7 @@ contains
       integer :: i
       logical :: joined
 
-      call read_good(text//"~&sweep key = 'film.gap_mm', from = 0.05, to = 0.09, count = 5 /~" &
+      call read_good(suite, text//"~&sweep key = 'film.gap_mm', from = 0.05, to = 0.09, count = 5 /~" &
          & //"&sweep key = 'pressure.inlet_kpa', from = 5, to = 35, count = 7 /", deck)
       call suite%equal(what//": their number", block_count(deck), blocks)
       joined = .true.
@@ -195,16 +229,5 @@ contains
       end do
       call suite%true(what//": every case is in one of them", joined .and. next == 36)
    end subroutine covers
-
-   subroutine read_good(text, deck)
-      character(len=*), intent(in) :: text
-      type(deck_type), intent(out) :: deck
-      type(fault_list) :: faults
-      type(error_type), allocatable :: error
-
-      call read_trial(text//"~", deck, faults, error)
-      call suite%no_error("deck", error)
-      if (faults%errors() > 0) call suite%text("a deck without faults", faults%all_text(), "")
-   end subroutine read_good
 
 end program test_traces

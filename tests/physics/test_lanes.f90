@@ -4,6 +4,7 @@ program test_lanes
    use rv_kinds, only : wp
    use rv_lanes, only : lane_outcome, lane_settings
    use rv_lumped, only : lumped_valve
+   use rv_pressure, only : square_wave
    use rv_status, only : status_film_closed, status_ok, status_name, status_too_many_steps
    use check, only : suite_type
    use paper_valve, only : run_lumped, valve_at, wave_40ms, kpa, mm, ms
@@ -16,6 +17,7 @@ program test_lanes
    call alone_and_in_company()
    call failing_neighbour()
    call neighbour_on_its_seat()
+   call end_of_cycle()
    call step_limit()
    call suite%finish()
 
@@ -103,7 +105,24 @@ contains
          if (others(i)) worst = max(worst, distance(with%measure(:, i), without%measure(:, i)))
       end do
       call suite%close("and are where they were without the failures", worst, 0.0_wp, 0.0_wp, 1.0e-4_wp)
+      call run_lumped(valve(5:5), wave_40ms(), settings, [0.0_wp, 1.0_wp*ms], with)
+      call suite%close("of the lane with a NaN the start is known", with%trace(1, 1, 1), 0.0_wp, 0.0_wp, 0.0_wp)
+      call suite%true("but no more", all(ieee_is_nan(with%trace(2, :, 1))))
    end subroutine failing_neighbour
+
+   !> What happens after the end of the cycle is not measured.
+   subroutine end_of_cycle()
+      type(lane_outcome) :: outcome
+      type(lane_settings) :: settings
+      type(square_wave) :: wave
+
+      settings%t_end = 40.0_wp*ms
+      wave = wave_40ms()
+      wave%cycle_end = 22.0_wp*ms
+      call run_lumped([valve_at(20.0_wp*kpa, 0.05_wp*mm, 0.0075_wp)], wave, settings, no_times, outcome)
+      call suite%true("a cycle that ends 2.5 ms after the event: fall, but no closing", outcome%measure(5, 1) > 0.0_wp .and. &
+         & ieee_is_nan(outcome%measure(6, 1)))
+   end subroutine end_of_cycle
 
    !> A film too weak to slow its reed, which strikes the seat in mid-closing: up to then it is as it is alone, then
    !> it is missing; the other lanes do not notice at any time.
@@ -147,6 +166,14 @@ contains
       call run_lumped([valve_at(20.0_wp*kpa, 0.05_wp*mm, 0.0075_wp)], wave_40ms(), settings, no_times, outcome)
       call suite%equal("status at the step limit", outcome%status(1), status_too_many_steps)
       call suite%true("message: "//outcome%message(1)%s, index(outcome%message(1)%s, "after 20 steps") == 1)
+      settings%max_steps = 1000000
+      call run_lumped([valve_at(20.0_wp*kpa, 0.05_wp*mm, 0.0075_wp)], wave_40ms(), settings, no_times, outcome)
+      settings%max_steps = outcome%steps
+      call run_lumped([valve_at(20.0_wp*kpa, 0.05_wp*mm, 0.0075_wp)], wave_40ms(), settings, no_times, outcome)
+      call suite%equal("as many steps as it takes are enough", outcome%status(1), status_ok)
+      settings%max_steps = outcome%steps - 1
+      call run_lumped([valve_at(20.0_wp*kpa, 0.05_wp*mm, 0.0075_wp)], wave_40ms(), settings, no_times, outcome)
+      call suite%equal("one less is not", outcome%status(1), status_too_many_steps)
    end subroutine step_limit
 
 end program test_lanes

@@ -25,12 +25,13 @@ module hand_made
 contains
 
    !> Measures of one lane whose steady displacement is u_ref (or `steady`, over u_ref).
-   function measures_of(curve, knot, cycle_end, steady, squeeze) result(measure)
+   function measures_of(curve, knot, cycle_end, steady, squeeze, rtol) result(measure)
       type(curve_type), intent(in) :: curve
       real(wp), intent(in) :: knot(:)                !! the steps' ends [s]
       real(wp), intent(in), optional :: cycle_end    !! [s]; the last knot unless given
       real(wp), intent(in), optional :: steady
       real(wp), intent(in), optional :: squeeze      !! C of a film of 1.5 u_ref [N s m2]
+      real(wp), intent(in), optional :: rtol         !! tolerance that made the curve [-]; 0 unless given
       real(wp) :: measure(n_measures)
       real(wp) :: level, film
       type(measure_lanes) :: measures
@@ -39,18 +40,18 @@ contains
       if (present(steady)) level = steady
       film = 0.0_wp
       if (present(squeeze)) film = squeeze
-      call feed(measures, curve, knot, lanes_of([film]), [1.0_wp], [level*u_ref], cycle_end)
+      call feed(measures, curve, knot, lanes_of([film]), [1.0_wp], [level*u_ref], cycle_end, rtol)
       measure = measures%results(1)
    end function measures_of
 
    !> Hand the curve, times a factor for each lane, to measures, step by step.
-   subroutine feed(measures, curve, knot, lanes, factor, steady, cycle_end)
+   subroutine feed(measures, curve, knot, lanes, factor, steady, cycle_end, rtol)
       type(measure_lanes), intent(out) :: measures
       type(curve_type), intent(in) :: curve
       real(wp), intent(in) :: knot(:)                !! [s]
       class(valve_lanes), intent(in) :: lanes        !! one degree of freedom
       real(wp), intent(in) :: factor(:), steady(:)   !! [-], [m]; (width)
-      real(wp), intent(in), optional :: cycle_end
+      real(wp), intent(in), optional :: cycle_end, rtol
       class(valve_lanes), allocatable :: own
       type(step_type) :: step
       real(wp) :: last
@@ -61,7 +62,7 @@ contains
       if (present(cycle_end)) last = cycle_end
       call new_step(step, knot(1), rows(curve, factor, 0, knot(1), knot(1)), rows(curve, factor, 1, knot(1), knot(1)), &
          & rows(curve, factor, 2, knot(1), knot(1)), own%tip, spread(.true., 1, size(factor)))
-      call new_measure_lanes(measures, knot(1), curve%event, last, steady, step%u1)
+      call new_measure_lanes(measures, knot(1), curve%event, last, steady, step%u1, rtol)
       do k = 2, size(knot)
          call feed_step(measures, curve, knot(k - 1), knot(k), own, factor, spread(.true., 1, size(factor)))
       end do
