@@ -231,7 +231,7 @@ contains
       end if
       measure(5) = self%down(2, i) - self%down(1, i)
       measure(6) = self%down(3, i) - self%event
-      if (-self%lowest(i) >= least) measure(7) = self%down(4, i) - self%event
+      if (-self%lowest(i) > least) measure(7) = self%down(4, i) - self%event
       if (self%reached(i) > self%event) measure(8) = above(-self%lowest(i), least)
       measure(9) = self%largest_force(i)
    end function results
