@@ -62,7 +62,7 @@ contains
       type(planform_cache) :: cache
       real(wp), allocatable :: value(:, :), order_by(:, :), time(:)
       integer, allocatable :: order(:)
-      integer :: n, i, top
+      integer :: n, i, top, widest
 
       n = int(last - first) + 1
       allocate(value(n_keys, n), order_by(n_shared + 2, n))
@@ -78,22 +78,21 @@ contains
       order = sorted_order(order_by)
       i = 1
       do while (i <= n)
-         top = last_of_group(order_by(:n_shared, order(i:)), widest_group(deck, value(:, order(i)))) + i - 1
+         widest = min(n, i - 1 + widest_group(deck, value(:, order(i))))
+         top = i - 1 + length_of_group(order_by(:n_shared, order(i:widest)))
          call run_group(deck, value(:, order(i:top)), order(i:top), time, cache, result)
          i = top + 1
       end do
    end subroutine run_block
 
-   !> How many of the first columns are equal, at most `widest`.
-   pure integer function last_of_group(shared, widest) result(last)
+   !> How many of the first columns are equal.
+   pure integer function length_of_group(shared) result(length)
       real(wp), intent(in) :: shared(:, :)
-      integer, intent(in) :: widest
 
-      do last = 2, min(widest, size(shared, 2))
-         if (any(abs(shared(:, last) - shared(:, 1)) > 0.0_wp)) exit
+      do length = 1, size(shared, 2) - 1
+         if (any(abs(shared(:, length + 1) - shared(:, 1)) > 0.0_wp)) return
       end do
-      last = last - 1
-   end function last_of_group
+   end function length_of_group
 
    !> Lanes an integrator may have: solver.width; one where states have many degrees of freedom.
    pure integer function widest_group(deck, value) result(width)
