@@ -41,7 +41,7 @@ module rv_film_lanes
 
    !> One case; width is 1.
    type, extends(valve_lanes) :: film_lanes
-      type(film_reed), private :: reed
+      type(film_reed), allocatable, private :: reed
       type(film_valve), private :: valve
       real(wp), allocatable, private :: factor(:, :)   !! Cholesky factor of the mass matrix
       logical, private :: silent = .false.

@@ -15,7 +15,7 @@ module rv_table_lanes
 
    !> Cases side by side; arrays are (width).
    type, extends(valve_lanes) :: table_lanes
-      type(film_reed), private :: reed
+      type(film_reed), allocatable, private :: reed
       type(film_table), private :: table
       real(wp), allocatable, private :: inverse_mass(:)   !! [kg-1]
       real(wp), allocatable, private :: damping(:)        !! c_a [N s m-1]
