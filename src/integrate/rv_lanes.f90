@@ -180,6 +180,7 @@ contains
             flag = rv_stuck
             problem%failed = problem%hindrance
          end if
+         if (flag < 0) y_new = y   ! a failed step leaves no state
          if (flag >= 0 .and. all(ieee_is_finite(y_new))) then
             y = y_new
             if (flag == rv_at_stop) t = stops(k)
