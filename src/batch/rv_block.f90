@@ -166,7 +166,7 @@ contains
       result%status(place) = outcome%status(lane)
       result%warnings(place) = facts%warnings
       result%trace(:, :traces, place) = outcome%trace(:, :, lane)
-      if (size(outcome%field, 1) > 0) result%field(:, :, place) = outcome%field(:, :, lane)
+      if (size(outcome%field) > 0) result%field(:, :, place) = outcome%field(:, :, lane)
       result%message(place)%s = outcome%message(lane)%s
       if (.not. allocated(facts%note)) return
       if (outcome%status(lane) /= status_ok) result%message(place)%s = result%message(place)%s//"; "
