@@ -104,7 +104,7 @@ contains
       type(block_result) :: r, others
       integer, parameter :: open_gap(12) = [1, 3, 4, 5, 7, 8, 9, 11, 12, 13, 15, 16]   !! of 16, whose second of four is shut
       character(len=*), parameter :: models = "&run model = 'squeeze', 'film', 'film_table', 'traditional'", &
-         & gaps = "~&sweep key = 'film.gap_mm', values = 0.05, ", &
+         & gaps = "~&solver width = 2 /~&sweep key = 'film.gap_mm', values = 0.05, ", &
          & where = "at t = 0 s: the film under the reed is closed over the whole land: the gap is 0"
       character(len=*), parameter :: more(3) = [character(len=96) :: " /~&film modes = 1 /", &
          & ", start = 'equilibrium' /~&film modes = 1 /", &

@@ -41,8 +41,8 @@ expect 0 'shut.nml:2:16: warning: film.gap_mm = 0: the film is closed from the s
 expect 0 'The film is closed at film.gap_mm = 0' modes shut.nml
 printf "&run model = 'traditional' /\n&film gap_mm = 0 /\n" >shut.nml
 expect 0 '1 case, none failed' run shut.nml --force
-printf "film.gap_mm,pressure.inlet_kpa\n0.05,20\n0,20\n0.1,10\n" >shut.csv
+printf "film.gap_mm,pressure.period_ms\n0.05,40\n0,40\n0,30\n0.1,40\n" >shut.csv
 printf "&run model = 'squeeze', 'film_table' /\n&design file = 'shut.csv' /\n" >shut.nml
-expect 1 '6 cases, 2 failed \(2 film_closed\)' run shut.nml --force
+expect 1 '8 cases, 4 failed \(4 film_closed\)' run shut.nml --force
 if grep -Eqi 'nan|inf' shut/summary.csv; then wrong "NaN in the summary"; else pass "no NaN in the summary"; fi
 finish
