@@ -151,7 +151,7 @@ static inline struct peer_case *peer_read(const char *path, size_t *count) {
 }
 
 /* The program: PEER CASES RTOL SECONDS TIMES. The cases are solved again and again until SECONDS are over, once at least;
- * seconds of one round go to standard output, fall and closing times [s] to the file TIMES. */
+ * seconds of one round go to standard output, fall and closing times [ms] to the file TIMES. */
 static inline int peer_main(int argc, char **argv, peer_solver solve) {
    size_t n;
    if (argc != 5) peer_die("usage: PEER CASES RTOL SECONDS TIMES");
@@ -170,7 +170,7 @@ static inline int peer_main(int argc, char **argv, peer_solver solve) {
    printf("%.6e\n", elapsed / rounds);
    FILE *file = fopen(argv[4], "w");
    if (!file) peer_die("the list of times cannot be written");
-   for (size_t i = 0; i < n; i++) fprintf(file, "%.16e,%.16e\n", times[i][0], times[i][1]);
+   for (size_t i = 0; i < n; i++) fprintf(file, "%.16e,%.16e\n", 1e3 * times[i][0], 1e3 * times[i][1]);
    if (fclose(file) != 0) peer_die("the list of times cannot be written");
    return 0;
 }
