@@ -66,12 +66,15 @@ contains
    !> Beyond the first 10000 cases, which are checked with the deck, each case checks itself.
    subroutine bad_cases()
       type(deck_type) :: deck
-      type(block_result) :: r
+      type(block_result) :: r, alone
 
-      call read_good(suite, "&sweep key = 'reed.hole_diameter_mm', from = 4, to = 6.0002, count = 10002 /", deck)
-      call run_block(deck, 10000_i8, 10002_i8, r)
-      call suite%true("holes up to the reed's width are fine", all(r%status(1:2) == status_ok))
-      call expect_bad("a hole wider than the reed", r, 3, "wider than the reed")
+      call read_good(suite, "&sweep key = 'pressure.inlet_kpa', values = 5, 40 /~" &
+         & //"&sweep key = 'reed.hole_diameter_mm', from = 4, to = 6.0002, count = 10002 /", deck)
+      call run_block(deck, 10001_i8, 10004_i8, r)
+      call suite%true("holes up to the reed's width are fine", all(r%status([1, 3, 4]) == status_ok))
+      call expect_bad("a hole wider than the reed", r, 2, "wider than the reed")
+      call run_block(deck, 10004_i8, 10004_i8, alone)
+      call suite%true("the cases after it are their own", agree(r%measure(:, 4:4), alone%measure))
 
       call read_good(suite, "&run t_end_ms = 30 /~&sweep key = 'pressure.transition_ms', from = 1, to = 20, count = 10001 /", deck)
       call run_block(deck, 9999_i8, 10001_i8, r)
@@ -91,7 +94,7 @@ contains
 
       call suite%equal(what//" is a bad case", r%status(i), status_bad_case)
       call suite%true("its reason: "//r%message(i)%s, index(r%message(i)%s, reason) > 0)
-      call suite%true("it has no measures", all(ieee_is_nan(r%measure(:, i))))
+      call suite%true("it has no measures and no facts", all(ieee_is_nan(r%measure(:, i))) .and. all(ieee_is_nan(r%fact(:, i))))
    end subroutine expect_bad
 
    !> A film too weak to stop its reed, in one group with others: it fails late, with its reason, and they do not notice.
