@@ -10,6 +10,7 @@ module rv_merge
    use rv_manifest, only : manifest_type
    use rv_monitor, only : monitor_type, phase_merge, progress_type
    use rv_parts, only : part_type, read_part
+   use rv_row_text, only : row_text
    use rv_results_csv, only : csv_writer
    use rv_results_folder, only : csv_name, netcdf_name, results_folder
    use rv_results_netcdf, only : expected_size, netcdf_writer
@@ -57,6 +58,7 @@ contains
       logical, intent(out) :: stopped
       type(error_type), allocatable, intent(out) :: error
       type(part_type) :: part
+      type(row_text) :: rows
       type(progress_type) :: progress
       integer(int32) :: identity
       integer :: block
@@ -74,7 +76,8 @@ contains
          if (stopped) return
          call next_part(folder, identity, block, progress%done, part, error)
          if (.not. allocated(error)) call writers%netcdf%put(part, error)
-         if (.not. allocated(error)) call writers%csv%put(part, error)
+         if (.not. allocated(error)) call writers%csv%get_rows(part, rows)
+         if (.not. allocated(error)) call writers%csv%put_rows(rows, error)
          if (allocated(error)) return
          call tally%add(part%result)
          progress%done = progress%done + size(part%result%status)

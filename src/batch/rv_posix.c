@@ -300,13 +300,3 @@ int rv_posix_process(void)
 {
    return (int)getpid();
 }
-
-/* %g with so many digits; a host program's locale may have a decimal comma, a CSV file may not. */
-void rv_posix_number(double x, int digits, char *buffer, size_t size)
-{
-   char *comma;
-
-   snprintf(buffer, size, "%.*g", digits, x);
-   comma = strchr(buffer, ',');
-   if (comma != NULL) *comma = '.';
-}
