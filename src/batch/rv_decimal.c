@@ -11,8 +11,8 @@
 #include <stdio.h>
 #include <string.h>
 
-int rv_decimal_number(double x, int digits, char *text);
-int rv_decimal_whole(int64_t i, char *text);
+void rv_decimal_number(double x, int digits, char *text, int *length);
+void rv_decimal_whole(int64_t i, char *text, int *length);
 
 enum { FEWEST = 1, MOST = 15, ROOM = 40 };
 
@@ -95,15 +95,18 @@ static char *put_fraction(const char *digit, int whole, int used, char *text)
    return text + used + 1;
 }
 
-/* Writes x with so many significant digits, zeros at the end dropped; returns the length. `text` has ROOM bytes. */
-int rv_decimal_number(double x, int digits, char *text)
+/* Writes x with so many significant digits, zeros at the end dropped. `text` has ROOM bytes, `length` are used. */
+void rv_decimal_number(double x, int digits, char *text, int *length)
 {
    char digit[2 * MOST], *next = text;
    double size = fabs(x);
    uint64_t n;
    int exponent, used = digits;
 
-   if (digits < FEWEST || digits > MOST || !(size >= least && size < most)) return by_printf(x, digits, text);
+   if (digits < FEWEST || digits > MOST || !(size >= least && size < most)) {
+      *length = by_printf(x, digits, text);
+      return;
+   }
    exponent = lowest_exponent(size);
    n = scaled(size, digits - 1 - exponent);
    if (n >= whole_power[digits]) n = scaled(size, digits - 1 - ++exponent);
@@ -126,16 +129,15 @@ int rv_decimal_number(double x, int digits, char *text)
       memcpy(next + 1 - exponent, digit, MOST);
       next += used + 1 - exponent;
    }
-   return (int)(next - text);
+   *length = (int)(next - text);
 }
 
-/* Writes a whole number, i >= 0; returns the length. */
-int rv_decimal_whole(int64_t i, char *text)
+/* Writes a whole number, i >= 0. `text` has ROOM bytes, `length` are used. */
+void rv_decimal_whole(int64_t i, char *text, int *length)
 {
-   int length = 1;
    int64_t rest;
 
-   for (rest = i; rest >= 10; rest /= 10) length++;
-   put_digits((uint64_t)i, length, text);
-   return length;
+   *length = 1;
+   for (rest = i; rest >= 10; rest /= 10) ++*length;
+   put_digits((uint64_t)i, *length, text);
 }

@@ -21,17 +21,19 @@ module rv_row_text
    end type row_text
 
    interface
-      pure integer(c_int) function c_number(x, digits, text) bind(C, name="rv_decimal_number")
+      pure subroutine c_number(x, digits, text, length) bind(C, name="rv_decimal_number")
          import :: c_char, c_double, c_int
          real(c_double), value :: x
          integer(c_int), value :: digits
          character(kind=c_char), intent(inout) :: text(*)
-      end function c_number
-      pure integer(c_int) function c_whole(i, text) bind(C, name="rv_decimal_whole")
+         integer(c_int), intent(out) :: length
+      end subroutine c_number
+      pure subroutine c_whole(i, text, length) bind(C, name="rv_decimal_whole")
          import :: c_char, c_int, c_int64_t
          integer(c_int64_t), value :: i
          character(kind=c_char), intent(inout) :: text(*)
-      end function c_whole
+         integer(c_int), intent(out) :: length
+      end subroutine c_whole
    end interface
 
 contains
@@ -57,18 +59,22 @@ contains
       class(row_text), intent(inout) :: self
       real(wp), intent(in) :: x
       integer, intent(in) :: digits
+      integer(c_int) :: length
 
       call self%make_room(int(number_room, i8))
-      self%used = self%used + c_number(x, digits, self%bytes(self%used + 1:self%used + number_room))
+      call c_number(x, int(digits, c_int), self%bytes(self%used + 1:self%used + number_room), length)
+      self%used = self%used + length
    end subroutine add_number
 
    !> A whole number, not negative.
    pure subroutine add_whole(self, i)
       class(row_text), intent(inout) :: self
       integer(i8), intent(in) :: i
+      integer(c_int) :: length
 
       call self%make_room(int(number_room, i8))
-      self%used = self%used + c_whole(i, self%bytes(self%used + 1:self%used + number_room))
+      call c_whole(i, self%bytes(self%used + 1:self%used + number_room), length)
+      self%used = self%used + length
    end subroutine add_whole
 
    !> Room doubles when it runs out.
