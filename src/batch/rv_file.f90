@@ -29,7 +29,7 @@ module rv_file
       character(len=:), allocatable :: path
       character(len=:), allocatable :: buffer
       integer :: used = 0
-      integer(int32), public :: crc = 0          !! of the bytes put and got, texts left out, since the file was opened or this was set to 0
+      integer(int32), public :: crc = 0          !! of the bytes put and got, bar texts, since it was opened or this was 0
    contains
       procedure :: open_old
       procedure :: create
