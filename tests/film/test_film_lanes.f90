@@ -115,7 +115,7 @@ contains
          call some_state(lanes, number, q, v)
          pressure = scatter(2, number + 900)
          inlet = pressure(1)
-         call lanes%linearise(inlet, pressure(2), q, v, a, a_q, a_v, closed)
+         call lanes%linearise(1, lanes%width, inlet, pressure(2), q, v, a, a_q, a_v, closed)
          call lanes%acceleration(inlet, pressure(2), q, v, again, closed)
          apart = max(apart, maxval(abs(again - a))/maxval(abs(a)))
          do k = 1, lanes%dofs
@@ -232,7 +232,7 @@ contains
       q(lanes%width, 1) = -1.01_wp*lanes%gap(lanes%width)
       call lanes%acceleration(1.0_wp, 0.0_wp, q, 0.0_wp*q, a, closed)
       call suite%equal("the last lane in its seat", closed, lanes%width)
-      call lanes%linearise(1.0_wp, 0.0_wp, q, 0.0_wp*q, a, a_q, a_v, closed)
+      call lanes%linearise(1, lanes%width, 1.0_wp, 0.0_wp, q, 0.0_wp*q, a, a_q, a_v, closed)
       call suite%equal("linearised", closed, lanes%width)
    end subroutine check_closed
 
@@ -250,7 +250,7 @@ contains
       v(last, :) = 0.0_wp
       call lanes%acceleration(1.0_wp, 0.0_wp, q, v, before, closed)
       call lanes%silence(last)
-      call lanes%linearise(1.0_wp, 0.0_wp, q, v, a, a_q, a_v, closed)
+      call lanes%linearise(1, lanes%width, 1.0_wp, 0.0_wp, q, v, a, a_q, a_v, closed)
       call suite%equal(name//": silenced, not closed", closed, 0)
       call suite%close("no acceleration, no derivative", maxval(abs(a(last, :))) + maxval(abs(a_q(last, :, :))) &
          & + maxval(abs(a_v(last, :, :))), 0.0_wp, 0.0_wp, 0.0_wp)
