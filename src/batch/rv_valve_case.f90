@@ -48,7 +48,7 @@ contains
       class(valve_lanes), allocatable, intent(out) :: lanes
       type(case_facts), intent(inout) :: facts(:)
       type(lumped_valve) :: valve(size(facts))
-      type(lumped_lanes) :: lumped
+      type(lumped_lanes), allocatable :: lumped
       logical :: fine(size(facts))
       integer :: i
 
@@ -57,8 +57,9 @@ contains
          fine(i) = .not. allocated(facts(i)%error)
       end do
       if (.not. any(fine)) return
+      allocate(lumped)
       call new_lumped_lanes(lumped, pack(valve, fine))
-      allocate(lanes, source=lumped)
+      call move_alloc(lumped, lanes)
    end subroutine new_lumped_cases
 
    subroutine new_lumped_case(value, valve, facts)
