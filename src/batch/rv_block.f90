@@ -50,6 +50,11 @@ module rv_block
       & key_solver_rtol, key_solver_max_steps]
    integer, parameter :: n_shared = n_planform + size(shared_keys)
 
+   ! Blocks that the deck leaves to us: many enough for many workers, large enough that lanes find like neighbours,
+   ! small enough that a killed run loses seconds. 512 is a multiple of every likely width: no lane is left empty.
+   integer(i8), parameter :: wanted_blocks = 64, fewest_cases = 512, most_cases = 4096
+   integer(i8), parameter :: fewest_film_cases = 16         !! of the model film, whose cases take 0.2 s each
+
    integer(i8), parameter :: most_trace_bytes = 64*1024**2  !! of one block's traces in memory
 
 contains
@@ -223,12 +228,18 @@ contains
       if (size(deck%field_times()) > 0) nodes = mesh_nodes(nint(deck%value(key_film_mesh)))
    end function field_nodes
 
-   !> Cases in a block: run.block_size, fewer where their traces would take too much memory.
+   !> Cases in a block: run.block_size, fewer where their traces would take too much memory. The deck alone decides,
+   !> not who works on it: the cut shows in the last digits.
    integer(i8) function cases_per_block(deck) result(n)
       type(deck_type), intent(in) :: deck
-      integer(i8) :: bytes
+      integer(i8) :: bytes, fewest
 
       n = nint(deck%value(key_run_block_size), i8)
+      if (n == 0) then
+         fewest = fewest_cases
+         if (deck%uses_model(model_film)) fewest = fewest_film_cases
+         n = max(fewest, min(most_cases, fewest*(deck%case_count()/(wanted_blocks*fewest))))
+      end if
       bytes = 8*(int(trace_count(deck), i8)*size(trace_times(deck)) &
          & + int(field_nodes(deck), i8)*size(deck%field_times()))
       if (bytes > 0) n = max(1_i8, min(n, most_trace_bytes/bytes))

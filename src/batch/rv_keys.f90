@@ -105,8 +105,9 @@ module rv_keys
       & "store the histories of displacement, velocity, pressures and squeeze force", sweepable=.false.), &
       & key_type("run", "trace_dt_ms", real_key, "ms", milli, "0.02", 1.0e-6_wp, 1.0e3_wp, &
       & "time between two stored samples", 1.0e-4_wp, 10.0_wp, sweepable=.false.), &
-      & key_type("run", "block_size", integer_key, "", one, "4096", 1.0_wp, 1.0e6_wp, &
-      & "cases in one block: the unit of work, and what a killed run can lose", sweepable=.false.)]
+      & key_type("run", "block_size", integer_key, "", one, "0", 0.0_wp, 1.0e6_wp, &
+      & "cases in one block: the unit of work, and what a killed run can lose; 0: set by the deck's number of cases", &
+      & sweepable=.false.)]
 
    type(key_type), parameter :: reed_keys(10) = [ &
       & key_type("reed", "a_mm", real_key, "mm", milli, "2.5", 1.0e-3_wp, 1.0e3_wp, &

@@ -53,7 +53,7 @@ contains
          & "@:1:21: solver.max_steps = 1e5: not a whole number~@:1:33: solver.width = 2.0: not a whole number")
       call says(suite, "whole number, overflow", "&solver max_steps = 99999999999999999999 /", &
          & "@:1:21: solver.max_steps = 99999999999999999999: too large")
-      call says(suite, "whole number, range", "&run block_size = 0 /", "@:1:19: run.block_size = 0: must be > 0")
+      call says(suite, "whole number, range", "&run block_size = -1 /", "@:1:19: run.block_size = -1: must be >= 0")
       call says(suite, "lanes", "&solver width = 48 /", "@:1:17: solver.width = 48: must be a power of two")
       call says(suite, "lanes, negative", "&solver width = -1 /", "@:1:17: solver.width = -1: must be > 0")
    end subroutine numbers

@@ -22,4 +22,13 @@ expect 1 'finished before' run deck.nml --resume
 printf "&hydro load = 'maali' /\n&reed thickness_mm = 0.3 /\n" >warned.nml
 expect 0 '1 of 1 cases are marked reynolds_range' run warned.nml
 holds "the summary has it" grep -q 'ok,.*Re = ' warned/summary.csv
+
+# both film models watch for cavitation, without traces too
+cat >suction.nml <<'END'
+&run model = 'film', 'film_table', t_end_ms = 3.0 /
+&film modes = 1, vapour_pressure_kpa = -20.0 /
+END
+expect 0 '2 of 2 cases are marked cavitation' run suction.nml
+rows=$(grep -Ec 'ok,.*falls to -(39|4[0-3])[.0-9]* kPa, below the vapour pressure' suction/summary.csv)
+if [ "$rows" = 2 ]; then pass "both tell how low"; else wrong "$rows of 2 tell how low: $(cat suction/summary.csv)"; fi
 finish
