@@ -47,6 +47,8 @@ contains
       options%threads = arguments%threads
       options%resume = arguments%resume
       options%force = arguments%force
+      options%slice = arguments%slice
+      options%slices = arguments%slices
       progress%quiet = arguments%quiet
       call watch_signals(arguments%quiet)
       call run_deck(deck, options, progress, outcome, error)

@@ -21,6 +21,7 @@ contains
       call say("Options of run:")
       call say("  -o DIR         folder for the results (default: the deck's name without .nml, here)")
       call say("  --threads N    threads to use (default: all processors)")
+      call say("  --slice I/N    run slice I of N only; slices may run at once, on many hosts; then: reedvalve merge DIR")
       call say("  --resume       go on with a run that was stopped or killed")
       call say("  --force        replace results that are there")
       call say("  --quiet        print errors only")

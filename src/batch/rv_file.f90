@@ -8,11 +8,11 @@ module rv_file
    use rv_kinds, only : i8
    use rv_error, only : error_type, fail, rv_io
    use rv_checksum, only : crc32_of
-   use rv_posix, only : c_text, get_reason, path_file, path_kind, path_none, &
+   use rv_posix, only : c_text, claim_name, get_reason, path_file, path_kind, path_none, process_mark, &
       & remove_file, rename_path
    implicit none
    private
-   public :: file_type, read_whole_file, write_whole_file, close_descriptor, new_suffix
+   public :: file_type, read_whole_file, write_whole_file, claim_whole_file, new_suffix, own_suffix
 
    !> What a file is called until it is whole.
    character(len=*), parameter :: new_suffix = ".new"
@@ -74,6 +74,13 @@ module rv_file
    end interface
 
 contains
+
+   !> What a file is called until it is whole, where several processes may write one of that name.
+   function own_suffix() result(suffix)
+      character(len=len(new_suffix) + 16) :: suffix
+
+      write(suffix, '(a, z16.16)') new_suffix, process_mark()
+   end function own_suffix
 
    !> Open for reading.
    subroutine open_old(self, path, error)
@@ -224,14 +231,23 @@ contains
       call remove_file(path//new_suffix, ignored)
    end subroutine write_whole_file
 
-   !> Close a bare descriptor, such as a lock's, ending the lock.
-   subroutine close_descriptor(fd)
-      integer(c_int), intent(inout) :: fd
-      integer(c_int) :: status
+   !> Write a file so that it is there whole and on the disk, unless there is one of that name already: then that
+   !> one stays and `taken` is true. Several processes may try at once.
+   subroutine claim_whole_file(path, text, taken, error)
+      character(len=*), intent(in) :: path
+      character(len=*), intent(in) :: text
+      logical, intent(out) :: taken
+      type(error_type), allocatable, intent(out) :: error
+      character(len=:), allocatable :: own
+      type(error_type), allocatable :: ignored
 
-      if (fd >= 0) status = c_close(fd)
-      fd = -1
-   end subroutine close_descriptor
+      taken = .false.
+      own = path//own_suffix()
+      call write_whole_file(own, text, error)
+      if (allocated(error)) return
+      call claim_name(own, path, taken, error)
+      if (allocated(error)) call remove_file(own, ignored)
+   end subroutine claim_whole_file
 
    subroutine start(self, path, mode, what, error)
       class(file_type), intent(inout) :: self

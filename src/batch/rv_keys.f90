@@ -141,8 +141,8 @@ module rv_keys
       & key_type("hydro", "load", choice_key, "", one, "", none, none, &
       & "added mass and damping of the fluid, see docs/theory.md", &
       & choices="published maali sader none", sweepable=.false.), &
-      & key_type("film", "gap_mm", real_key, "mm", milli, "0.05", 1.0e-6_wp, 1.0e3_wp, &
-      & "g0, thickness of the film under the reed at rest", 5.0e-4_wp, 10.0_wp, for_model=with_film), &
+      & key_type("film", "gap_mm", real_key, "mm", milli, "0.05", 0.0_wp, 1.0e3_wp, &
+      & "g0, thickness of the film under the reed at rest; 0: it is closed", 5.0e-4_wp, 10.0_wp, for_model=with_film), &
       & key_type("film", "k_s", real_key, "", one, "0.0075", 0.0_wp, 1.0e3_wp, &
       & "k_s of Eq. (26), fitted: factor on the squeeze force (the paper prints 0.008)", &
       & for_model=only_squeeze), &

@@ -170,10 +170,10 @@ contains
       do k = 1, 6
          do i = 1, 2
             value = [0.15_wp*mm, 8950.0_wp, 110.0e9_wp, gap, 875.0_wp, 0.0484_wp]
-            value(k) = merge(0.0_wp, nan, i == 1)
+            value(k) = merge(merge(-gap, 0.0_wp, k == 4), nan, i == 1)
             call new_film_valve(valve, reed, value(1), value(2), value(3), nu, load_maali, fluid_type(value(5), value(6)), &
                & value(4), error)
-            call suite%fails("datum "//to_text(k)//" = "//to_text(value(k)), error, "viscosity and gap > 0")
+            call suite%fails("datum "//to_text(k)//" = "//to_text(value(k)), error, "viscosity > 0, gap >= 0")
          end do
       end do
       call suite%equal("and the valve is a default one", valve%modes, 0)
