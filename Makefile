@@ -11,7 +11,7 @@ help:
 	@echo "make demo      run the paper's cases, compare with its tables, write a report"
 	@echo "make test      build, then run all tests"
 	@echo "make build     build the program: $(reedvalve)"
-	@echo "make bench     cases per second, beside SciPy"
+	@echo "make bench     cases per second, beside CVODE, Boost.odeint and SciPy; quick=1: less of it, in a minute"
 	@echo "make lint      check format and style of the sources; make format puts them right"
 	@echo "make debug-test, sanitize-test, valgrind-test    the tests in builds with more checks"
 	@echo "make clean     remove build/ and results/"
@@ -38,13 +38,14 @@ demo:
 
 test: build
 	ctest --preset release
-	REEDVALVE=$(abspath $(reedvalve)) $(venv)/python -m pytest -q postproc
+	REEDVALVE=$(abspath $(reedvalve)) $(venv)/python -m pytest -q postproc drivers/benchmarks
 
 %-test: checks build-%
 	ctest --preset $*
 
 bench: build
-	$(venv)/python drivers/benchmarks/benchmark.py
+	@drivers/benchmarks/peers/build build/peers install
+	@$(venv)/python drivers/benchmarks/benchmark.py $(if $(quick),--quick)
 
 lint format: bootstrap
 	@tools/$@

@@ -1,7 +1,8 @@
-!> How long the cases of a deck take without files: block_speed DECK THREADS TABLE
+!> How long the cases of a deck take without files: block_speed DECK THREADS TABLE [SECONDS]
 !>
-!> Every block is run once, after a first one to warm up. Standard output: seconds. TABLE: fall and closing time of
-!> each case [ms].
+!> All cases are run again and again until SECONDS are over (once unless given). One list of work holds the blocks of all
+!> rounds, so that threads have work where a deck has few blocks. Standard output: seconds of one round. TABLE: fall and
+!> closing time of each case [ms].
 program block_speed
    use, intrinsic :: iso_fortran_env, only : error_unit, output_unit
    use rv_block, only : block_bounds, block_count, block_result, run_block
@@ -17,54 +18,81 @@ program block_speed
    type(deck_type) :: deck
    type(fault_list) :: faults
    type(error_type), allocatable :: error
-   type(block_result), allocatable :: result(:)
-   character(len=4096) :: path, threads_word, table
-   real(wp) :: start, elapsed
-   integer :: threads, stat, i
+   real(wp), allocatable :: times(:, :)   !! fall and closing of each case [s]
+   character(len=4096) :: path, word, table
+   real(wp) :: start, elapsed, enough
+   integer :: threads, stat, i, blocks, rounds
+   integer(i8) :: failed
 
    call get_command_argument(1, path)
-   call get_command_argument(2, threads_word)
+   call get_command_argument(2, word)
+   read(word, *, iostat=stat) threads
    call get_command_argument(3, table)
-   read(threads_word, *, iostat=stat) threads
-   if (stat /= 0 .or. table == "") call give_up("usage: block_speed DECK THREADS TABLE")
+   enough = 0.0_wp
+   call get_command_argument(4, word)
+   if (stat == 0 .and. word /= "") read(word, *, iostat=stat) enough
+   if (stat /= 0 .or. table == "") call give_up("usage: block_speed DECK THREADS TABLE [SECONDS]")
    call read_deck(trim(path), deck, faults, error)
    if (allocated(error)) call give_up(error%message)
    if (faults%errors() > 0) call give_up(faults%text(1))
 
-   allocate(result(block_count(deck)))
+   blocks = block_count(deck)
+   allocate(times(2, deck%case_count()))
+   failed = 0
    call run_one(1)
    start = seconds()
-   !$omp parallel do schedule(dynamic, 1) num_threads(threads) default(none) shared(result)
-   do i = 1, size(result)
-      call run_one(i)
+   call run_one(1)
+   rounds = rounds_in(enough*threads, (seconds() - start)*blocks)
+   start = seconds()
+   !$omp parallel do schedule(dynamic, 1) num_threads(threads) default(none) shared(rounds, blocks)
+   do i = 0, rounds*blocks - 1
+      call run_one(1 + mod(i, blocks))
    end do
    !$omp end parallel do
-   elapsed = seconds() - start
+   elapsed = (seconds() - start)/rounds
+   if (failed > 0) call give_up("a case failed")
    write(output_unit, '(es12.5)') elapsed
    call write_table()
 
 contains
 
+   !> Rounds that take the time `wanted` when one takes `each`.
+   pure integer function rounds_in(wanted, each) result(rounds)
+      real(wp), intent(in) :: wanted, each   !! [s]
+      integer, parameter :: most = 100000
+
+      rounds = 1
+      if (each > 0.0_wp) rounds = max(1, ceiling(min(wanted/each, real(most, wp))))
+   end function rounds_in
+
    subroutine run_one(block)
       integer, intent(in) :: block
+      type(block_result) :: result
       integer(i8) :: first, last
 
       call block_bounds(deck, block, first, last)
-      call run_block(deck, first, last, result(block))
+      call run_block(deck, first, last, result)
+      if (any(result%status /= status_ok)) then
+         !$omp atomic
+         failed = failed + 1
+      end if
+      !$omp critical (keep)
+      times(:, first:last) = result%measure([fall, closing], :)
+      !$omp end critical (keep)
    end subroutine run_one
 
    subroutine write_table()
-      integer :: unit, k
+      integer :: unit
+      integer(i8) :: k
 
-      do k = 1, size(result)
-         if (any(result(k)%status /= status_ok)) call give_up("a case failed")
-      end do
       open(newunit=unit, file=trim(table), status="replace", action="write", iostat=stat)
       if (stat /= 0) call give_up("cannot write "//trim(table))
-      do k = 1, size(result)
-         write(unit, '(es23.16, ",", es23.16)') result(k)%measure([fall, closing], :)/ms
+      do k = 1, size(times, 2, kind=i8)
+         write(unit, '(es23.16, ",", es23.16)', iostat=stat) times(:, k)/ms
+         if (stat /= 0) exit
       end do
-      close(unit)
+      if (stat == 0) close(unit, iostat=stat)
+      if (stat /= 0) call give_up("cannot write "//trim(table))
    end subroutine write_table
 
    subroutine give_up(text)

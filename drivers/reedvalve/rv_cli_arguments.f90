@@ -12,12 +12,15 @@ module rv_cli_arguments
       character(len=:), allocatable :: operand   !! the deck, folder or model; empty: none
       character(len=:), allocatable :: folder    !! -o; empty: none
       integer :: threads = 0                     !! 0: not given
+      integer :: slice = 1                       !! --slice I/N
+      integer :: slices = 0                      !! 0: not given
       logical :: resume = .false.
       logical :: force = .false.
       logical :: quiet = .false.
    end type arguments_type
 
    integer, parameter :: most_threads = 1024
+   integer, parameter :: most_slices = 1000000
 
    !> A command, the word for its operand, and the options it takes.
    type :: command_type
@@ -28,8 +31,8 @@ module rv_cli_arguments
    end type command_type
 
    type(command_type), parameter :: commands(8) = [ &
-      & command_type("run", "DECK", .true., "-o --threads --resume --force --quiet"), &
-      & command_type("merge", "DIR", .true., "--quiet"), &
+      & command_type("run", "DECK", .true., "-o --threads --slice --resume --force --quiet"), &
+      & command_type("merge", "DIR", .true., "--threads --quiet"), &
       & command_type("check", "DECK", .true., "--quiet"), &
       & command_type("cases", "DECK", .true., "--threads"), &
       & command_type("modes", "DECK", .true., "--quiet"), &
@@ -117,7 +120,7 @@ contains
          call bad(error, "'"//trim(command%name)//"' has no option '"//option//"'"//meant)
          return
       end if
-      if (option == "-o" .or. option == "--threads") then
+      if (option == "-o" .or. option == "--threads" .or. option == "--slice") then
          if (.not. has_value) then
             place = place + 1
             value = argument(place)
@@ -134,7 +137,10 @@ contains
       case ("-o")
          arguments%folder = value
       case ("--threads")
-         call read_threads(value, arguments%threads, error)
+         if (.not. is_count(value, most_threads, arguments%threads)) call bad(error, "--threads takes a whole number " &
+            & //"from 1 to 1024, not '"//value//"'")
+      case ("--slice")
+         call read_slice(value, arguments, error)
       case ("--resume")
          arguments%resume = .true.
       case ("--force")
@@ -142,22 +148,39 @@ contains
       case default
          arguments%quiet = .true.
       end select
-      if (arguments%resume .and. arguments%force) call bad(error, "--resume goes on with an unfinished run, " &
-         & //"--force drops it: choose one")
+      if (allocated(error) .or. .not. arguments%force) return
+      if (arguments%resume) call bad(error, "--resume goes on with an unfinished run, --force drops it: choose one")
+      if (arguments%slices > 0) call bad(error, "--slice adds to a run in pieces, --force drops what others finished: " &
+         & //"choose one")
    end subroutine take_option
 
-   subroutine read_threads(value, threads, error)
+   !> "2/7"
+   subroutine read_slice(value, arguments, error)
       character(len=*), intent(in) :: value
-      integer, intent(out) :: threads
+      type(arguments_type), intent(inout) :: arguments
       type(error_type), allocatable, intent(out) :: error
+      integer :: bar
+      logical :: good
+
+      bar = index(value, "/")
+      good = .false.
+      if (bar > 0) good = is_count(value(bar + 1:), most_slices, arguments%slices)
+      if (good) good = is_count(value(:bar - 1), arguments%slices, arguments%slice)
+      if (.not. good) call bad(error, "--slice takes I/N, slice I of N, with whole numbers 1 <= I <= N, not '"//value//"'")
+   end subroutine read_slice
+
+   !> Is `text` a whole number from 1 to `most`? Then it is in `number`.
+   logical function is_count(text, most, number)
+      character(len=*), intent(in) :: text
+      integer, intent(in) :: most
+      integer, intent(out) :: number
       integer :: status
 
-      threads = 0
+      number = 0
       status = 1
-      if (verify(value, "0123456789") == 0) read(value, *, iostat=status) threads
-      if (status /= 0 .or. threads < 1 .or. threads > most_threads) call bad(error, "--threads takes a whole number " &
-         & //"from 1 to 1024, not '"//value//"'")
-   end subroutine read_threads
+      if (len(text) > 0 .and. verify(text, "0123456789") == 0) read(text, *, iostat=status) number
+      is_count = status == 0 .and. number >= 1 .and. number <= most
+   end function is_count
 
    subroutine bad(error, message)
       type(error_type), allocatable, intent(out) :: error

@@ -47,6 +47,8 @@ contains
       options%threads = arguments%threads
       options%resume = arguments%resume
       options%force = arguments%force
+      options%slice = arguments%slice
+      options%slices = arguments%slices
       progress%quiet = arguments%quiet
       call watch_signals(arguments%quiet)
       call run_deck(deck, options, progress, outcome, error)
@@ -62,7 +64,7 @@ contains
 
       progress%quiet = arguments%quiet
       call watch_signals(arguments%quiet)
-      call merge_folder(arguments%operand, progress, outcome, error)
+      call merge_folder(arguments%operand, arguments%threads, progress, outcome, error)
       call progress%clear()
       status = report_run(arguments, arguments%operand, outcome, error)
    end function merge_command

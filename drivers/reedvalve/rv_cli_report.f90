@@ -37,7 +37,13 @@ contains
          status = exit_failed
       else
          call tell_failures(outcome%tally, folder)
-         if (.not. arguments%quiet) call tell_results(folder, outcome)
+         if (.not. arguments%quiet) then
+            if (arguments%slices > 0 .and. .not. outcome%was_complete) then
+               call tell_slice(arguments, folder, outcome)
+            else
+               call tell_results(folder, outcome)
+            end if
+         end if
          status = merge(exit_failed, exit_fine, outcome%tally%failed > 0)
       end if
    end function report_run
@@ -48,15 +54,14 @@ contains
       type(run_outcome), intent(in) :: outcome
       character(len=*), intent(in) :: go_on
       character(len=:), allocatable :: kept
-      integer :: finished
 
-      finished = outcome%kept_blocks + outcome%new_blocks
       if (arguments%command == "merge" .and. outcome%blocks > 0) then
          call complain("the parts are as they were in '"//folder//"/parts'")
-      else if (finished > 0) then
-         kept = to_text(finished)//" of "//to_text(outcome%blocks)//" blocks are finished and kept in '" &
+      else if (outcome%finished_blocks > 0) then
+         kept = to_text(outcome%finished_blocks)//" of "//to_text(outcome%blocks)//" blocks are finished and kept in '" &
             & //folder//"/parts'; "//go_on//": reedvalve run "//arguments%operand
          if (arguments%folder /= "") kept = kept//" -o "//arguments%folder
+         if (arguments%slices > 0) kept = kept//" --slice "//to_text(arguments%slice)//"/"//to_text(arguments%slices)
          call complain(kept//" --resume")
       else if (outcome%stopped) then
          call complain("no block was finished, so there is nothing to resume")
@@ -79,7 +84,6 @@ contains
    subroutine tell_results(folder, outcome)
       character(len=*), intent(in) :: folder
       type(run_outcome), intent(in) :: outcome
-      character(len=:), allocatable :: line
       integer :: i
 
       do i = 1, n_warnings
@@ -87,6 +91,32 @@ contains
             & //" of "//to_text(outcome%tally%cases)//" cases are marked "//warning_name(i)//"; the first: " &
             & //bare(outcome%tally%warning))
       end do
+      call say(cases_text(outcome))
+      call say("Results: "//folder//"/summary.csv and "//folder//"/results.nc")
+      if (.not. outcome%was_complete) call say(time_text(outcome))
+   end subroutine tell_results
+
+   !> What a slice has done, and what comes next.
+   subroutine tell_slice(arguments, folder, outcome)
+      type(arguments_type), intent(in) :: arguments
+      character(len=*), intent(in) :: folder
+      type(run_outcome), intent(in) :: outcome
+
+      call say("Slice "//to_text(arguments%slice)//"/"//to_text(arguments%slices)//": "//cases_text(outcome))
+      if (outcome%finished_blocks < outcome%blocks) then
+         call say(to_text(outcome%finished_blocks)//" of "//to_text(outcome%blocks)//" blocks of the run are finished. " &
+            & //"When all are: reedvalve merge "//folder)
+      else
+         call say("All blocks of the run are finished. For the results: reedvalve merge "//folder)
+      end if
+      call say(time_text(outcome))
+   end subroutine tell_slice
+
+   !> "6 cases, 2 failed (2 film_closed). 4 of them were run now, the others before."
+   function cases_text(outcome) result(line)
+      type(run_outcome), intent(in) :: outcome
+      character(len=:), allocatable :: line
+
       line = counted(outcome%tally%cases, "case")
       if (outcome%tally%failed == 0) line = line//", none failed."
       if (outcome%tally%failed > 0) line = line//", "//to_text(outcome%tally%failed)//" failed" &
@@ -94,14 +124,20 @@ contains
       if (outcome%was_complete) line = line//" They were finished before; nothing was run."
       if (outcome%new_cases > 0 .and. outcome%kept_blocks > 0) line = line//" "//to_text(outcome%new_cases) &
          & //" of them were run now, the others before."
-      call say(line)
-      call say("Results: "//folder//"/summary.csv and "//folder//"/results.nc")
-      if (outcome%was_complete) return
+   end function cases_text
+
+   !> "Time: 3 s with 2 processes of 1 thread, 1000 cases/s"
+   function time_text(outcome) result(line)
+      type(run_outcome), intent(in) :: outcome
+      character(len=:), allocatable :: line
+
       line = "Time: "//duration_text(outcome%seconds)
-      if (outcome%new_cases > 0) line = line//" with "//counted(int(outcome%threads, i8), "thread")//", " &
+      if (outcome%new_cases == 0) return
+      line = line//" with "
+      if (outcome%processes > 1) line = line//to_text(outcome%processes)//" processes of "
+      line = line//counted(int(outcome%threads, i8), "thread")//", " &
          & //rate_text(real(outcome%new_cases, wp)/max(outcome%seconds, 1.0e-6_wp))
-      call say(line)
-   end subroutine tell_results
+   end function time_text
 
    !> ": 2 film_closed, 1 bad_case"
    pure function kinds(tally) result(text)

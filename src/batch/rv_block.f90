@@ -22,7 +22,7 @@ module rv_block
    use rv_number, only : tidy
    use rv_pressure, only : pressure_history
    use rv_sort, only : sorted_order
-   use rv_status, only : status_ok, status_bad_case, warn_cavitation
+   use rv_status, only : status_ok, status_bad_case, status_film_closed, warn_cavitation
    use rv_text, only : text_type, to_text
    use rv_valve_case, only : new_case_lanes, new_history, settings_of
    use rv_valve_lanes, only : valve_lanes
@@ -48,7 +48,13 @@ module rv_block
    integer, parameter :: shared_keys(10) = [key_run_model, key_pressure_kind, key_pressure_period_ms, &
       & key_pressure_transition_ms, key_pressure_file, key_pressure_event_ms, key_run_t_end_ms, key_run_start, &
       & key_solver_rtol, key_solver_max_steps]
+   real(wp), parameter :: least_gap = 1.0e-9_wp   !! keys allow no other but 0 below it [m]
    integer, parameter :: n_shared = n_planform + size(shared_keys)
+
+   ! Blocks that the deck leaves to us: many enough for many workers, large enough that lanes find like neighbours,
+   ! small enough that a killed run loses seconds. 512 is a multiple of every likely width: no lane is left empty.
+   integer(i8), parameter :: wanted_blocks = 64, fewest_cases = 512, most_cases = 4096
+   integer(i8), parameter :: fewest_film_cases = 16         !! of the model film, whose cases take 0.2 s each
 
    integer(i8), parameter :: most_trace_bytes = 64*1024**2  !! of one block's traces in memory
 
@@ -71,7 +77,7 @@ contains
       do i = 1, n
          call deck%case_values(first + i - 1, value(:, i))
          order_by(:, i) = [planform_key(value(:, i)), value(shared_keys, i), &
-            & value(key_fluid_viscosity_pa_s, i)/value(key_film_gap_mm, i)**3, value(key_pressure_inlet_kpa, i)]
+            & value(key_fluid_viscosity_pa_s, i)/max(value(key_film_gap_mm, i), least_gap)**3, value(key_pressure_inlet_kpa, i)]
       end do
       where (ieee_is_nan(order_by)) order_by = -huge(1.0_wp)
 
@@ -131,12 +137,17 @@ contains
             result%message(place(i))%s = facts(i)%error%message
             cycle
          end if
+         if (facts(i)%is_closed) then
+            call note_end(facts(i), status_film_closed, "at t = "//to_text(history%start, 6) &
+               & //" s: the film under the reed is closed over the whole land: the gap is 0", place(i), result)
+            cycle
+         end if
          lane = lane + 1
          call note_outcome(value(:, i), facts(i), outcome, lane, place(i), result)
       end do
    end subroutine run_group
 
-   !> Results of one lane. A failure's reason stands before the warnings.
+   !> Results of one lane.
    subroutine note_outcome(value, facts, outcome, lane, place, result)
       real(wp), intent(in) :: value(n_keys)
       type(case_facts), intent(inout) :: facts
@@ -156,17 +167,27 @@ contains
          end if
       end associate
       traces = size(outcome%trace, 2)
-      result%fact(:, place) = facts%fact
       result%measure(:, place) = outcome%measure(:, lane)
-      result%status(place) = outcome%status(lane)
-      result%warnings(place) = facts%warnings
       result%trace(:, :traces, place) = outcome%trace(:, :, lane)
-      if (size(outcome%field, 1) > 0) result%field(:, :, place) = outcome%field(:, :, lane)
-      result%message(place)%s = outcome%message(lane)%s
-      if (.not. allocated(facts%note)) return
-      if (outcome%status(lane) /= status_ok) result%message(place)%s = result%message(place)%s//"; "
-      result%message(place)%s = result%message(place)%s//facts%note
+      if (size(outcome%field) > 0) result%field(:, :, place) = outcome%field(:, :, lane)
+      call note_end(facts, outcome%status(lane), outcome%message(lane)%s, place, result)
    end subroutine note_outcome
+
+   !> How a case ended, and what is known of it. A failure's reason stands before the warnings.
+   subroutine note_end(facts, status, message, place, result)
+      type(case_facts), intent(in) :: facts
+      integer, intent(in) :: status, place
+      character(len=*), intent(in) :: message
+      type(block_result), intent(inout) :: result
+
+      result%fact(:, place) = facts%fact
+      result%status(place) = status
+      result%warnings(place) = facts%warnings
+      result%message(place)%s = message
+      if (.not. allocated(facts%note)) return
+      if (status /= status_ok) result%message(place)%s = result%message(place)%s//"; "
+      result%message(place)%s = result%message(place)%s//facts%note
+   end subroutine note_end
 
    subroutine prepare(deck, result, first, n, times)
       type(deck_type), intent(in) :: deck
@@ -223,12 +244,18 @@ contains
       if (size(deck%field_times()) > 0) nodes = mesh_nodes(nint(deck%value(key_film_mesh)))
    end function field_nodes
 
-   !> Cases in a block: run.block_size, fewer where their traces would take too much memory.
+   !> Cases in a block: run.block_size, fewer where their traces would take too much memory. The deck alone decides,
+   !> not who works on it: the cut shows in the last digits.
    integer(i8) function cases_per_block(deck) result(n)
       type(deck_type), intent(in) :: deck
-      integer(i8) :: bytes
+      integer(i8) :: bytes, fewest
 
       n = nint(deck%value(key_run_block_size), i8)
+      if (n == 0) then
+         fewest = fewest_cases
+         if (deck%uses_model(model_film)) fewest = fewest_film_cases
+         n = max(fewest, min(most_cases, fewest*(deck%case_count()/(wanted_blocks*fewest))))
+      end if
       bytes = 8*(int(trace_count(deck), i8)*size(trace_times(deck)) &
          & + int(field_nodes(deck), i8)*size(deck%field_times()))
       if (bytes > 0) n = max(1_i8, min(n, most_trace_bytes/bytes))

@@ -5,19 +5,21 @@ module rv_case_facts
    use rv_error, only : error_type, fail, rv_bad_input
    use rv_columns, only : n_facts
    use rv_hydrodynamic_load, only : fluid_type
-   use rv_keys, only : n_keys, load_by_model, default_load, kind_trace, key_run_model, key_fluid_density_kg_m3, &
-      & key_fluid_viscosity_pa_s, key_hydro_load, key_pressure_kind, key_pressure_inlet_kpa, key_pressure_outlet_kpa
+   use rv_keys, only : n_keys, load_by_model, default_load, kind_trace, model_traditional, model_squeeze, &
+      & key_run_model, key_fluid_density_kg_m3, key_fluid_viscosity_pa_s, key_hydro_load, key_film_gap_mm, &
+      & key_film_k_s, key_pressure_kind, key_pressure_inlet_kpa, key_pressure_outlet_kpa
    use rv_status, only : warn_reynolds
    use rv_text, only : to_text
    implicit none
    private
-   public :: case_facts, tell, add_note, fluid_of, load_of, amplitudes_of
+   public :: case_facts, tell, add_note, film_is_closed, fluid_of, load_of, amplitudes_of
 
    !> What is known of a case before it runs.
    type :: case_facts
       real(wp) :: fact(n_facts) = 0.0_wp            !! SI, in the order of fact_columns
       integer :: warnings = 0                       !! sum of warn_ bits
       character(len=:), allocatable :: note         !! a sentence for the warnings; unallocated: none
+      logical :: is_closed = .false.                !! the film is closed before anything moves
       type(error_type), allocatable :: error        !! the case cannot be run
    end type case_facts
 
@@ -51,6 +53,16 @@ contains
          facts%note = "warning: "//sentence
       end if
    end subroutine add_note
+
+   !> A film of no thickness; the squeeze model without a squeeze force has no film.
+   pure logical function film_is_closed(value) result(closed)
+      real(wp), intent(in) :: value(n_keys)
+      integer :: model
+
+      model = nint(value(key_run_model))
+      closed = model /= model_traditional .and. .not. value(key_film_gap_mm) > 0.0_wp
+      if (model == model_squeeze) closed = closed .and. value(key_film_k_s) > 0.0_wp
+   end function film_is_closed
 
    pure function fluid_of(value) result(fluid)
       real(wp), intent(in) :: value(n_keys)

@@ -51,7 +51,7 @@ contains
          & column_type("reynolds", "1", 1.0_wp, "Reynolds number at which the hydrodynamic function was taken"), &
          & column_type("wet_frequency_hz", "Hz", 1.0_wp, "undamped natural frequency in the fluid, without film"), &
          & column_type("lowest_film_kpa", "kPa", 1.0e-3_wp, &
-         & "lowest pressure in the film, at the ends of the steps (model film)")]
+         & "lowest pressure in the film, at the ends of the steps (film models)")]
    end function fact_columns
 
    !> The traces.

@@ -4,10 +4,11 @@ module rv_deck_check
    use rv_kinds, only : wp, i8
    use rv_error, only : error_type
    use rv_text, only : to_text
+   use rv_case_facts, only : film_is_closed
    use rv_deck_draft, only : draft_type
    use rv_hydrodynamic_load, only : load_published
    use rv_keys, only : keys, n_keys, full_name, value_text, choice_name, kind_square, kind_trace, model_film, &
-      & model_film_table, key_hydro_load, key_reed_a_mm, key_reed_b_mm, key_film_fields_ms, &
+      & model_film_table, key_hydro_load, key_reed_a_mm, key_reed_b_mm, key_film_fields_ms, key_film_gap_mm, key_film_k_s, &
       & key_run_model, key_run_t_end_ms, key_run_traces, key_run_trace_dt_ms, key_reed_hole_diameter_mm, &
       & key_reed_width_mm, key_fluid_density_kg_m3, key_fluid_viscosity_pa_s, key_pressure_kind, &
       & key_pressure_period_ms, key_pressure_transition_ms, key_pressure_file, key_pressure_event_ms
@@ -24,8 +25,8 @@ module rv_deck_check
 
    !> Rules that tie values of one case together: the keys each looks at, and its pressure.kind (0: any).
    integer, parameter :: hole_fits = 1, ramp_fits = 2, few_periods = 3, event_not_negative = 4, event_in_trace = 5, &
-      & end_in_trace = 6, event_before_end = 7, tip_is_round = 8, film_load = 9, n_rules = 9
-   integer, parameter :: rule_kind(n_rules) = [0, kind_square, kind_square, kind_square, kind_trace, kind_trace, 0, 0, 0]
+      & end_in_trace = 6, event_before_end = 7, tip_is_round = 8, film_load = 9, film_open = 10, n_rules = 10
+   integer, parameter :: rule_kind(n_rules) = [0, kind_square, kind_square, kind_square, kind_trace, kind_trace, 0, 0, 0, 0]
    integer, parameter :: rule_keys(5, n_rules) = reshape([ &
       & key_reed_hole_diameter_mm, key_reed_width_mm, 0, 0, 0, &
       & key_pressure_transition_ms, key_pressure_period_ms, 0, 0, 0, &
@@ -36,7 +37,8 @@ module rv_deck_check
       & key_run_t_end_ms, key_pressure_event_ms, key_pressure_period_ms, key_pressure_transition_ms, &
       & key_pressure_file, &
       & key_reed_b_mm, key_reed_width_mm, key_reed_hole_diameter_mm, key_run_model, 0, &
-      & key_hydro_load, key_run_model, 0, 0, 0], [5, n_rules])
+      & key_hydro_load, key_run_model, 0, 0, 0, &
+      & key_film_gap_mm, key_run_model, key_film_k_s, 0, 0], [5, n_rules])
 
 contains
 
@@ -153,7 +155,7 @@ contains
       do n = size(list), 1, -1
          if (draft%deck%line(list(n)) > 0) key = list(n)
       end do
-      if (rule == event_before_end) then
+      if (any(rule == [event_before_end, film_open])) then
          call warn_at(draft, key, text)
       else
          call tell_at(draft, key, text)
@@ -203,6 +205,9 @@ contains
          case (film_load)
             if (is_film .and. nint(value(key_hydro_load)) == load_published) text = setting(key_hydro_load, value) &
                & //" is a reading of the lumped models; the film models take 'maali', 'sader' or 'none'"
+         case (film_open)
+            if (film_is_closed(value)) text = setting(key_film_gap_mm, value) &
+               & //": the film is closed from the start; such a case ends there as film_closed"
          case default
             if (event >= finish) text = setting(key_run_t_end_ms, value)//" ends the run before closing starts at " &
                & //to_text(1.0e3_wp*event, 6)//" ms; no closing is measured"

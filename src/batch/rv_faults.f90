@@ -84,7 +84,7 @@ contains
       is_warning = self%item(i)%is_warning
    end function is_warning
 
-   !> "deck.nml:12:8: film.gap_mm = -0.05: must be > 0 (mm)"; a warning says so after the place.
+   !> "deck.nml:12:8: film.gap_mm = -0.05: must be >= 0 (mm)"; a warning says so after the place.
    pure function item_text(self, i) result(text)
       class(fault_list), intent(in) :: self
       integer, intent(in) :: i

@@ -8,11 +8,11 @@ module rv_file
    use rv_kinds, only : i8
    use rv_error, only : error_type, fail, rv_io
    use rv_checksum, only : crc32_of
-   use rv_posix, only : c_text, get_reason, path_file, path_kind, path_none, &
+   use rv_posix, only : c_text, claim_name, get_reason, path_file, path_kind, path_none, process_mark, &
       & remove_file, rename_path
    implicit none
    private
-   public :: file_type, read_whole_file, write_whole_file, close_descriptor, new_suffix
+   public :: file_type, read_whole_file, write_whole_file, claim_whole_file, new_suffix, own_suffix
 
    !> What a file is called until it is whole.
    character(len=*), parameter :: new_suffix = ".new"
@@ -29,7 +29,7 @@ module rv_file
       character(len=:), allocatable :: path
       character(len=:), allocatable :: buffer
       integer :: used = 0
-      integer(int32), public :: crc = 0          !! of the bytes since the file was opened or this was set to 0
+      integer(int32), public :: crc = 0          !! of the bytes put and got, bar texts, since it was opened or this was 0
    contains
       procedure :: open_old
       procedure :: create
@@ -74,6 +74,13 @@ module rv_file
    end interface
 
 contains
+
+   !> What a file is called until it is whole, where several processes may write one of that name.
+   function own_suffix() result(suffix)
+      character(len=len(new_suffix) + 16) :: suffix
+
+      write(suffix, '(a, z16.16)') new_suffix, process_mark()
+   end function own_suffix
 
    !> Open for reading.
    subroutine open_old(self, path, error)
@@ -122,6 +129,11 @@ contains
       type(error_type), allocatable, intent(out) :: error
       integer :: done, part
 
+      if (len(text) >= buffer_size) then
+         call self%flush_buffer(error)
+         if (.not. allocated(error)) call write_text(self, text, error)
+         return
+      end if
       if (.not. allocated(self%buffer)) allocate(character(len=buffer_size) :: self%buffer)
       done = 0
       do while (done < len(text))
@@ -224,14 +236,23 @@ contains
       call remove_file(path//new_suffix, ignored)
    end subroutine write_whole_file
 
-   !> Close a bare descriptor, such as a lock's, ending the lock.
-   subroutine close_descriptor(fd)
-      integer(c_int), intent(inout) :: fd
-      integer(c_int) :: status
+   !> Write a file so that it is there whole and on the disk, unless there is one of that name already: then that
+   !> one stays and `taken` is true. Several processes may try at once.
+   subroutine claim_whole_file(path, text, taken, error)
+      character(len=*), intent(in) :: path
+      character(len=*), intent(in) :: text
+      logical, intent(out) :: taken
+      type(error_type), allocatable, intent(out) :: error
+      character(len=:), allocatable :: own
+      type(error_type), allocatable :: ignored
 
-      if (fd >= 0) status = c_close(fd)
-      fd = -1
-   end subroutine close_descriptor
+      taken = .false.
+      own = path//own_suffix()
+      call write_whole_file(own, text, error)
+      if (allocated(error)) return
+      call claim_name(own, path, taken, error)
+      if (allocated(error)) call remove_file(own, ignored)
+   end subroutine claim_whole_file
 
    subroutine start(self, path, mode, what, error)
       class(file_type), intent(inout) :: self
@@ -247,16 +268,23 @@ contains
    end subroutine start
 
    subroutine flush_buffer(self, error)
-      class(file_type), target, intent(inout) :: self
+      class(file_type), intent(inout) :: self
       type(error_type), allocatable, intent(out) :: error
       integer :: used
 
       if (self%used == 0) return
       used = self%used
       self%used = 0
-      self%crc = crc32_of(c_loc(self%buffer), int(used, i8), self%crc)
-      call check(c_write(self%fd, c_loc(self%buffer), int(used, c_size_t)), "write", self%path, error)
+      call write_text(self, self%buffer(:used), error)
    end subroutine flush_buffer
+
+   subroutine write_text(self, text, error)
+      class(file_type), intent(in) :: self
+      character(len=*), target, intent(in) :: text
+      type(error_type), allocatable, intent(out) :: error
+
+      call check(c_write(self%fd, c_loc(text), len(text, c_size_t)), "write", self%path, error)
+   end subroutine write_text
 
    subroutine check(number, what, path, error)
       integer(c_int), intent(in) :: number

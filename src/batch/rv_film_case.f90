@@ -2,7 +2,7 @@
 module rv_film_case
    use rv_kinds, only : wp, pi
    use rv_error, only : error_type
-   use rv_case_facts, only : case_facts, tell, add_note, fluid_of, load_of, amplitudes_of
+   use rv_case_facts, only : case_facts, tell, add_note, film_is_closed, fluid_of, load_of, amplitudes_of
    use rv_film_lanes, only : film_lanes, new_film_lanes
    use rv_film_reed, only : film_reed, new_film_reed
    use rv_film_table, only : film_table, new_film_table
@@ -24,7 +24,7 @@ module rv_film_case
    real(wp), parameter :: wide_gap = 0.15e-3_wp    !! Navier-Stokes over lubrication: 0.95 at this film thickness [m]
    integer, parameter :: elements_around(3) = [6, 4, 2]  !! film mesh of film.mesh = 1: on arc, side and clamp
    integer, parameter :: elements_across = 3
-   integer, parameter :: n_planform = 8            !! values in planform_key
+   integer, parameter :: n_planform = 9            !! values in planform_key
 
    !> The planform solved last, for the film models: cases that share it need it once.
    type :: planform_cache
@@ -43,8 +43,8 @@ contains
       class(valve_lanes), allocatable, intent(out) :: lanes
       type(case_facts), intent(inout) :: facts(:)
       type(film_valve), allocatable :: valve(:)
-      type(film_lanes) :: film
-      type(table_lanes) :: table
+      type(film_lanes), allocatable :: film
+      type(table_lanes), allocatable :: table
       type(error_type), allocatable :: error
       logical :: fine(size(facts))
       integer :: i
@@ -59,16 +59,18 @@ contains
       allocate(valve(size(facts)))
       do i = 1, size(facts)
          call new_film_case(value(:, i), cache%reed, valve(i), facts(i))
-         fine(i) = .not. allocated(facts(i)%error)
+         fine(i) = .not. (allocated(facts(i)%error) .or. facts(i)%is_closed)
       end do
       valve = pack(valve, fine)
       if (size(valve) == 0) return
       if (nint(value(key_run_model, 1)) == model_film) then
+         allocate(film)
          call new_film_lanes(film, cache%reed, valve(1))
-         allocate(lanes, source=film)
+         call move_alloc(film, lanes)
       else
+         allocate(table)
          call new_table_lanes(table, cache%reed, cache%table, valve)
-         allocate(lanes, source=table)
+         call move_alloc(table, lanes)
       end if
    end subroutine new_film_cases
 
@@ -86,6 +88,7 @@ contains
       call tell(facts, valve%hole_stiffness, valve%modal_mass, valve%added_mass, valve%added_damping, &
          & valve%reynolds, valve%in_range)
       facts%fact(6) = valve%omega/(2.0_wp*pi)
+      facts%is_closed = film_is_closed(value)
       if (valve%gap < wide_gap*(1.0_wp - epsilon(wide_gap))) return
       facts%warnings = ior(facts%warnings, warn_wide_gap)
       call add_note(facts, "at a gap of "//to_text(1.0e3_wp*valve%gap, 4) &
@@ -129,7 +132,7 @@ contains
          & value(key_reed_width_mm), value(key_reed_poisson_ratio), modes, value(key_film_edge_elongation), error, &
          & around=mesh*elements_around, across=mesh*elements_across)
       if (allocated(error)) return
-      if (nint(value(key_run_model)) == model_film_table) then
+      if (nint(value(key_run_model)) == model_film_table .and. .not. film_is_closed(value)) then
          allocate(cache%table)
          call new_film_table(cache%table, cache%reed, value(key_film_gap_mm), error)
          if (allocated(error)) return
@@ -137,17 +140,19 @@ contains
       cache%key = planform_key(value)
    end subroutine keep_planform
 
-   !> What cases must share to share a planform (and its table): zeros for the lumped models.
+   !> What cases must share to share a planform and its table: zeros for the lumped models. Cases whose film is closed
+   !> from the start are kept apart from others, whatever their model: they never reach lanes.
    pure function planform_key(value) result(key)
       real(wp), intent(in) :: value(n_keys)
       real(wp) :: key(n_planform)
       integer :: model
 
       key = 0.0_wp
+      if (film_is_closed(value)) key(9) = 1.0_wp
       model = nint(value(key_run_model))
       if (all(model /= [model_film, model_film_table])) return
-      key = [value(key_run_model), value(key_reed_a_mm), value(key_reed_hole_diameter_mm), value(key_reed_b_mm), &
-         & value(key_reed_width_mm), value(key_reed_poisson_ratio), value(key_film_edge_elongation), 0.0_wp]
+      key(:7) = [value(key_run_model), value(key_reed_a_mm), value(key_reed_hole_diameter_mm), value(key_reed_b_mm), &
+         & value(key_reed_width_mm), value(key_reed_poisson_ratio), value(key_film_edge_elongation)]
       if (model == model_film_table .and. value(key_film_edge_elongation) > 0.0_wp) key(8) = value(key_film_gap_mm)
    end function planform_key
 

@@ -190,7 +190,7 @@ contains
          & "another unit is likely: `thickness_mm = 0.00015` was probably meant in m. So does a key that has no", &
          & "effect on the chosen models or kind of pressure.", &
          & "", &
-         & "Faults read `deck.nml:12:8: film.gap_mm = -0.05: must be > 0 (mm)`: file, line, column, key, value, cure."]
+         & "Faults read `deck.nml:12:8: film.gap_mm = -0.05: must be >= 0 (mm)`: file, line, column, key, value, cure."]
       integer :: i
 
       do i = 1, size(text)

@@ -6,10 +6,12 @@ module rv_key_value
    use rv_text_builder, only : append_text
    use rv_suggest, only : closest
    use rv_keys, only : keys, n_rows, real_key, integer_key, logical_key, choice_key, text_key, to_si, from_si, &
-      & choice_count, choice_name, choice_index, full_name, key_solver_width
+      & choice_count, choice_name, choice_index, full_name, key_film_gap_mm, key_solver_width
    implicit none
    private
    public :: read_value, odd_value, range_text, unknown_choice, names_of_group, names_of_keys, suggestion
+
+   real(wp), parameter :: smallest_gap_mm = 1.0e-6_wp   !! of a film that is not closed: a few molecules
 
 contains
 
@@ -61,6 +63,8 @@ contains
       end select
       if (trouble == "") trouble = range_trouble(key, value)
       if (trouble == "" .and. key == key_solver_width .and. popcnt(nint(value)) /= 1) trouble = "must be a power of two"
+      if (trouble == "" .and. key == key_film_gap_mm .and. value > 0.0_wp .and. value < smallest_gap_mm) &
+         & trouble = "must be 0 or from "//to_text(smallest_gap_mm)//" to "//to_text(keys(key)%highest)//unit_in_parentheses(key)
       value = to_si(key, value)
    end subroutine read_bare_value
 

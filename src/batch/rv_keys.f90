@@ -105,8 +105,9 @@ module rv_keys
       & "store the histories of displacement, velocity, pressures and squeeze force", sweepable=.false.), &
       & key_type("run", "trace_dt_ms", real_key, "ms", milli, "0.02", 1.0e-6_wp, 1.0e3_wp, &
       & "time between two stored samples", 1.0e-4_wp, 10.0_wp, sweepable=.false.), &
-      & key_type("run", "block_size", integer_key, "", one, "4096", 1.0_wp, 1.0e6_wp, &
-      & "cases in one block: the unit of work, and what a killed run can lose", sweepable=.false.)]
+      & key_type("run", "block_size", integer_key, "", one, "0", 0.0_wp, 1.0e6_wp, &
+      & "cases in one block: the unit of work, and what a killed run can lose; 0: set by the deck's number of cases", &
+      & sweepable=.false.)]
 
    type(key_type), parameter :: reed_keys(10) = [ &
       & key_type("reed", "a_mm", real_key, "mm", milli, "2.5", 1.0e-3_wp, 1.0e3_wp, &
@@ -140,8 +141,8 @@ module rv_keys
       & key_type("hydro", "load", choice_key, "", one, "", none, none, &
       & "added mass and damping of the fluid, see docs/theory.md", &
       & choices="published maali sader none", sweepable=.false.), &
-      & key_type("film", "gap_mm", real_key, "mm", milli, "0.05", 1.0e-6_wp, 1.0e3_wp, &
-      & "g0, thickness of the film under the reed at rest", 5.0e-4_wp, 10.0_wp, for_model=with_film), &
+      & key_type("film", "gap_mm", real_key, "mm", milli, "0.05", 0.0_wp, 1.0e3_wp, &
+      & "g0, thickness of the film under the reed at rest; 0: it is closed", 5.0e-4_wp, 10.0_wp, for_model=with_film), &
       & key_type("film", "k_s", real_key, "", one, "0.0075", 0.0_wp, 1.0e3_wp, &
       & "k_s of Eq. (26), fitted: factor on the squeeze force (the paper prints 0.008)", &
       & for_model=only_squeeze), &
@@ -272,24 +273,25 @@ contains
    elemental real(wp) function from_si(key, si) result(value)
       integer, intent(in) :: key
       real(wp), intent(in) :: si
-      real(wp) :: candidate(6)
+      real(wp) :: plain, candidate(4)
       integer :: i
 
       if (keys(key)%factor < 1.0_wp) then
-         candidate(2) = si*anint(1.0_wp/keys(key)%factor)
+         plain = si*anint(1.0_wp/keys(key)%factor)
       else
-         candidate(2) = si/keys(key)%factor
+         plain = si/keys(key)%factor
       end if
-      candidate(1) = tidy(candidate(2))
-      candidate(3) = nearest(candidate(2), 1.0_wp)
-      candidate(4) = nearest(candidate(2), -1.0_wp)
-      candidate(5) = nearest(candidate(3), 1.0_wp)
-      candidate(6) = nearest(candidate(4), -1.0_wp)
+      value = tidy(plain)
+      if (abs(to_si(key, value) - si) <= 0.0_wp) return
+      value = plain
+      if (abs(to_si(key, value) - si) <= 0.0_wp) return
+      candidate(1:2) = nearest(plain, [1.0_wp, -1.0_wp])
+      candidate(3:4) = nearest(candidate(1:2), [1.0_wp, -1.0_wp])
       do i = 1, size(candidate)
+         if (abs(to_si(key, candidate(i)) - si) > 0.0_wp) cycle
          value = candidate(i)
-         if (abs(to_si(key, value) - si) <= 0.0_wp) return
+         return
       end do
-      value = candidate(2)
    end function from_si
 
    !> A value as a deck spells it, without quotes; empty where there is none. Texts and files stand elsewhere.

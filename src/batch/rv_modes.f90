@@ -103,10 +103,14 @@ contains
          & value(key_reed_width_mm), value(key_reed_thickness_mm), value(key_reed_density_kg_m3), &
          & value(key_reed_youngs_modulus_gpa), 1.0_wp, error)
       if (allocated(error)) return
+      call build%line("k_a of Eq. (18), for the stiffness alone:   "//to_text(valve%hole_stiffness/beam%stiffness, 4))
+      if (.not. valve%gap > 0.0_wp) then
+         call build%line("The film is closed at film.gap_mm = 0: it has no damping, and no pressure on the land, to tell of.")
+         return
+      end if
       drop = value(key_pressure_inlet_kpa) - value(key_pressure_outlet_kpa)
       call static_displacement(reed, valve, drop, steady, error)
       if (allocated(error)) return
-      call build%line("k_a of Eq. (18), for the stiffness alone:   "//to_text(valve%hole_stiffness/beam%stiffness, 4))
       call build%line("k_a with the pressure on the land, at "//to_text(1.0e-3_wp*drop, 4)//" kPa: " &
          & //to_text(drop*reed%hole_area/(beam%stiffness*steady), 4)//" (steady tip displacement " &
          & //to_text(1.0e3_wp*steady, 5)//" mm)")

@@ -11,10 +11,10 @@ module rv_monitor
    !> Where a run stands.
    type :: progress_type
       integer :: phase = phase_cases
-      integer(i8) :: cases = 0       !! all there are
-      integer(i8) :: done = 0        !! finished in this phase, those of earlier runs included
-      integer(i8) :: earlier = 0     !! finished by earlier runs
-      integer(i8) :: failed = 0      !! failed among those that this run computed
+      integer(i8) :: cases = 0       !! all that this run or slice is to do
+      integer(i8) :: done = 0        !! finished in this phase, those of earlier runs and of other processes included
+      integer(i8) :: earlier = 0     !! found finished
+      integer(i8) :: failed = 0      !! failed among those that are done
       real(wp) :: seconds = 0.0_wp   !! since this phase began [s]
    end type progress_type
 
@@ -26,7 +26,7 @@ module rv_monitor
    end type monitor_type
 
    abstract interface
-      !> Called at the start of a phase and after every block.
+      !> Called at the start of a phase and after every block, found finished or run.
       subroutine report_progress(self, progress)
          import :: monitor_type, progress_type
          class(monitor_type), intent(inout) :: self

@@ -1,8 +1,9 @@
 !> Part files: the results of one finished block, whole or not there. They are the only channel between workers.
 !>
-!> A part is written under a temporary name, brought to the disk, and renamed. Its head says to which run and
-!> block it belongs and how long it is; both head and body carry a checksum, so a part that is cut short,
-!> damaged or foreign is found when it is read. Numbers are in the byte order of the machine that wrote them.
+!> A part is written under a temporary name, then renamed. Its head says to which run and block it belongs and how
+!> long it is; both head and body carry a checksum, so a part that is cut short, damaged or foreign is found when
+!> it is read. That is why nobody waits until it is on the disk: what a power cut spoils is computed again.
+!> Numbers are in the byte order of the machine that wrote them.
 module rv_parts
    use, intrinsic :: iso_c_binding, only : c_loc
    use, intrinsic :: iso_fortran_env, only : int32
@@ -10,11 +11,11 @@ module rv_parts
    use rv_error, only : error_type, fail, rv_io
    use rv_text, only : text_type, to_text
    use rv_posix, only : path_file, path_kind, remove_file, rename_path
-   use rv_file, only : file_type, new_suffix
+   use rv_file, only : file_type, new_suffix, own_suffix
    use rv_block, only : block_result, n_facts, n_measures
    implicit none
    private
-   public :: part_type, part_name, is_part_name, write_part, read_part
+   public :: part_type, part_name, is_part_name, is_unfinished_name, block_of_name, write_part, read_part
 
    !> A block's results with what tells its cases apart.
    type :: part_type
@@ -46,15 +47,33 @@ contains
    !> Is `name` a part's, finished or not? Such files may be removed.
    pure logical function is_part_name(name) result(yes)
       character(len=*), intent(in) :: name
+
+      yes = block_of_name(name) > 0 .or. is_unfinished_name(name)
+   end function is_part_name
+
+   !> Is `name` that of a part in the making, or of one whose maker was killed?
+   pure logical function is_unfinished_name(name) result(yes)
+      character(len=*), intent(in) :: name
+      integer :: whole
+
+      whole = len(prefix) + digits + len(suffix)
+      yes = .false.
+      if (len(name) < whole + len(new_suffix)) return
+      yes = block_of_name(name(:whole)) > 0 .and. name(whole + 1:whole + len(new_suffix)) == new_suffix
+   end function is_unfinished_name
+
+   !> The block whose finished part has that name; 0 for other names.
+   pure integer function block_of_name(name) result(block)
+      character(len=*), intent(in) :: name
       integer :: behind
 
+      block = 0
       behind = len(prefix) + digits
-      yes = .false.
-      if (len(name) < behind + len(suffix)) return
-      if (name(:len(prefix)) /= prefix) return
+      if (len(name) /= behind + len(suffix)) return
+      if (name(:len(prefix)) /= prefix .or. name(behind + 1:) /= suffix) return
       if (verify(name(len(prefix) + 1:behind), "0123456789") > 0) return
-      yes = name(behind + 1:) == suffix .or. name(behind + 1:) == suffix//new_suffix
-   end function is_part_name
+      read(name(len(prefix) + 1:behind), '(i9)') block
+   end function block_of_name
 
    !> Write the part of `block` into `folder`; on failure nothing of it is left.
    subroutine write_part(folder, identity, block, part, error)
@@ -65,18 +84,18 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(error_type), allocatable :: ignored
       type(file_type) :: file
-      character(len=:), allocatable :: path
+      character(len=:), allocatable :: path, own
 
       path = folder//"/"//part_name(block)
-      call file%create(path//new_suffix, error)
+      own = path//own_suffix()
+      call file%create(own, error)
       if (allocated(error)) return
       call put_part(file, identity, block, part, error)
-      if (.not. allocated(error)) call file%sync(error)
       if (.not. allocated(error)) call file%close(error)
-      if (.not. allocated(error)) call rename_path(path//new_suffix, path, error)
+      if (.not. allocated(error)) call rename_path(own, path, error)
       if (.not. allocated(error)) return
       call file%close()
-      call remove_file(path//new_suffix, ignored)
+      call remove_file(own, ignored)
    end subroutine write_part
 
    !> Read and verify the part of `block`. `found` is false without an error when there is none; a part that

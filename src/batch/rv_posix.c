@@ -34,7 +34,8 @@ static void note_signal(int number)
    errno = kept;
 }
 
-/* SIGINT and SIGTERM are noted once; a second one has its usual effect, so nobody is locked in.
+/* SIGINT, SIGTERM and SIGUSR1 are noted once; a second one has its usual effect, so nobody is locked in. Schedulers
+ * announce the end of a job's time with SIGUSR1, and mpirun passes that one on where it makes an end of the others.
  * `notice` is what the program wants to be told at once on standard error; it may be empty. */
 int rv_posix_catch_signals(const char *notice)
 {
@@ -47,6 +48,7 @@ int rv_posix_catch_signals(const char *notice)
    sigemptyset(&action.sa_mask);
    if (sigaction(SIGINT, &action, NULL) != 0) return errno;
    if (sigaction(SIGTERM, &action, NULL) != 0) return errno;
+   if (sigaction(SIGUSR1, &action, NULL) != 0) return errno;
    return 0;
 }
 
@@ -81,6 +83,15 @@ int rv_posix_remove_file(const char *path)
 int rv_posix_rename(const char *from, const char *to)
 {
    return rename(from, to) == 0 ? 0 : errno;
+}
+
+/* Gives a file a second name unless something has that name: then `taken` is 1. */
+int rv_posix_link(const char *from, const char *to, int *taken)
+{
+   *taken = 0;
+   if (link(from, to) == 0) return 0;
+   *taken = errno == EEXIST;
+   return *taken ? 0 : errno;
 }
 
 /* kind: 0 nothing there, 1 file, 2 folder, 3 something else */
@@ -189,40 +200,69 @@ int rv_posix_close(int fd)
    return close(fd) == 0 ? 0 : errno;
 }
 
+/* 0 when we have the lock, else an errno. A lock that many may hold is asked for a little longer: whoever ends takes it
+ * alone for a moment, to see whether others are left (rv_posix_unlock). */
+static int take_lock(int fd, int shared)
+{
+   int tries = shared ? 50 : 1;
+
+   while (flock(fd, (shared ? LOCK_SH : LOCK_EX) | LOCK_NB) != 0) {
+      if (errno == EINTR) continue;
+      if (errno != EWOULDBLOCK || --tries == 0) return errno;
+      rv_posix_nap(0.01);
+   }
+   return 0;
+}
+
+/* Is `path` still the name of this open file? */
+static int is_named(int fd, const char *path)
+{
+   struct stat held, named;
+
+   return fstat(fd, &held) == 0 && stat(path, &named) == 0 && held.st_ino == named.st_ino &&
+          held.st_dev == named.st_dev;
+}
+
 /* state: 0 ours, 1 another process holds it, 2 this file system has no locks.
- * The holder may remove the file when it ends: a lock on a file that is no longer there is taken anew.
+ * A shared lock is ours together with others that asked for a shared one.
+ * The last holder removes the file when it ends: a lock on a file that is no longer there is taken anew.
  * `holder` goes into the file, for the message of whoever is refused. */
-int rv_posix_lock(const char *path, const char *holder, int *fd, int *state)
+int rv_posix_lock(const char *path, const char *holder, int shared, int *fd, int *state)
 {
    for (;;) {
-      struct stat held, named;
       int failure;
 
       *state = 0;
-      *fd = open(path, O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+      *fd = open(path, O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
       if (*fd < 0) return errno;
-      if (flock(*fd, LOCK_EX | LOCK_NB) != 0) {
-         failure = errno;
-         if (failure == EINTR) {
-            close(*fd);
-            continue;
-         }
-         *state = failure == EWOULDBLOCK ? 1 : 2;
-         if (*state == 2 && failure != ENOLCK && failure != ENOSYS && failure != EOPNOTSUPP) {
-            close(*fd);
-            return failure;
-         }
-         if (*state == 1) close(*fd);
+      failure = take_lock(*fd, shared);
+      if (failure == EWOULDBLOCK) {
+         *state = 1;
+         close(*fd);
          return 0;
       }
-      if (fstat(*fd, &held) == 0 && stat(path, &named) == 0 && held.st_ino == named.st_ino &&
-          held.st_dev == named.st_dev) {
+      if (failure == ENOLCK || failure == ENOSYS || failure == EOPNOTSUPP) {
+         *state = 2;
+         return 0;
+      }
+      if (failure != 0) {
+         close(*fd);
+         return failure;
+      }
+      if (is_named(*fd, path)) {
          /* without a name in it the lock is as good: a full disk is no reason to fail here */
-         if (ftruncate(*fd, 0) == 0) (void)!write(*fd, holder, strlen(holder));
+         if (shared || ftruncate(*fd, 0) == 0) (void)!write(*fd, holder, strlen(holder));
          return 0;
       }
       close(*fd);
    }
+}
+
+/* Ends a lock; its file goes with the last holder. */
+void rv_posix_unlock(const char *path, int fd)
+{
+   if ((flock(fd, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) && is_named(fd, path)) unlink(path);
+   close(fd);
 }
 
 int rv_posix_list_open(const char *path, void **list)
@@ -280,6 +320,13 @@ double rv_posix_seconds(void)
    return (double)now.tv_sec + 1.0e-9 * (double)now.tv_nsec;
 }
 
+void rv_posix_nap(double seconds)
+{
+   struct timespec rest = {(time_t)seconds, (long)(1.0e9 * (seconds - (double)(time_t)seconds))};
+
+   nanosleep(&rest, NULL);
+}
+
 /* ISO 8601 in UTC */
 void rv_posix_date(char *buffer, size_t size)
 {
@@ -301,12 +348,13 @@ int rv_posix_process(void)
    return (int)getpid();
 }
 
-/* %g with so many digits; a host program's locale may have a decimal comma, a CSV file may not. */
-void rv_posix_number(double x, int digits, char *buffer, size_t size)
+/* Tells this process from those of other hosts, too: the process number behind a hash (FNV-1a) of the host's name. */
+int64_t rv_posix_process_mark(void)
 {
-   char *comma;
+   char host[256];
+   uint32_t hash = 2166136261u;
 
-   snprintf(buffer, size, "%.*g", digits, x);
-   comma = strchr(buffer, ',');
-   if (comma != NULL) *comma = '.';
+   rv_posix_host(host, sizeof host);
+   for (const char *next = host; *next != '\0'; next++) hash = (hash ^ (unsigned char)*next) * 16777619u;
+   return (int64_t)(((uint64_t)hash << 32) | (uint32_t)getpid());
 }

@@ -8,10 +8,10 @@ module rv_posix
    implicit none
    private
    public :: path_kind, path_none, path_file, path_folder, path_other, free_bytes, check_room
-   public :: make_folder, remove_folder, remove_file, rename_path, sync_folder, list_folder
-   public :: lock_file, lock_ours, lock_held, lock_none
+   public :: make_folder, remove_folder, remove_file, rename_path, claim_name, sync_folder, list_folder
+   public :: lock_file, unlock_file, lock_ours, lock_held, lock_none
    public :: catch_signals, signal_seen, keep_standard_files, is_terminal, terminal_width
-   public :: seconds, utc_date, host_name, process_number, number_text, get_reason, c_text
+   public :: seconds, nap, utc_date, host_name, process_number, process_mark, get_reason, c_text
 
    integer, parameter :: path_none = 0    !! nothing of that name
    integer, parameter :: path_file = 1
@@ -54,6 +54,11 @@ module rv_posix
          import :: c_int, c_char
          character(kind=c_char), intent(in) :: from(*), to(*)
       end function c_rename
+      integer(c_int) function c_link(from, to, taken) bind(C, name="rv_posix_link")
+         import :: c_int, c_char
+         character(kind=c_char), intent(in) :: from(*), to(*)
+         integer(c_int), intent(out) :: taken
+      end function c_link
       integer(c_int) function c_kind(path, kind, size) bind(C, name="rv_posix_kind")
          import :: c_int, c_char, c_int64_t
          character(kind=c_char), intent(in) :: path(*)
@@ -74,11 +79,17 @@ module rv_posix
          import :: c_int, c_char
          character(kind=c_char), intent(in) :: path(*)
       end function c_sync_folder
-      integer(c_int) function c_lock(path, holder, fd, state) bind(C, name="rv_posix_lock")
+      integer(c_int) function c_lock(path, holder, shared, fd, state) bind(C, name="rv_posix_lock")
          import :: c_int, c_char
          character(kind=c_char), intent(in) :: path(*), holder(*)
+         integer(c_int), value :: shared
          integer(c_int), intent(out) :: fd, state
       end function c_lock
+      subroutine c_unlock(path, fd) bind(C, name="rv_posix_unlock")
+         import :: c_int, c_char
+         character(kind=c_char), intent(in) :: path(*)
+         integer(c_int), value :: fd
+      end subroutine c_unlock
       integer(c_int) function c_list_open(path, list) bind(C, name="rv_posix_list_open")
          import :: c_int, c_char, c_ptr
          character(kind=c_char), intent(in) :: path(*)
@@ -107,6 +118,10 @@ module rv_posix
       real(c_double) function c_seconds() bind(C, name="rv_posix_seconds")
          import :: c_double
       end function c_seconds
+      subroutine c_nap(seconds) bind(C, name="rv_posix_nap")
+         import :: c_double
+         real(c_double), value :: seconds
+      end subroutine c_nap
       subroutine c_date(buffer, size) bind(C, name="rv_posix_date")
          import :: c_char, c_size_t
          character(kind=c_char), intent(out) :: buffer(*)
@@ -120,13 +135,9 @@ module rv_posix
       integer(c_int) function c_process() bind(C, name="rv_posix_process")
          import :: c_int
       end function c_process
-      subroutine c_number(x, digits, buffer, size) bind(C, name="rv_posix_number")
-         import :: c_double, c_int, c_char, c_size_t
-         real(c_double), value :: x
-         integer(c_int), value :: digits
-         character(kind=c_char), intent(out) :: buffer(*)
-         integer(c_size_t), value :: size
-      end subroutine c_number
+      integer(c_int64_t) function c_process_mark() bind(C, name="rv_posix_process_mark")
+         import :: c_int64_t
+      end function c_process_mark
    end interface
 
 contains
@@ -194,6 +205,24 @@ contains
       call check(c_rename(c_text(from), c_text(to)), "rename '"//from//"' to '"//to//"'", error)
    end subroutine rename_path
 
+   !> Give a whole file its final name in one step, unless a file has that name: then it stays, and `taken` is true.
+   subroutine claim_name(from, to, taken, error)
+      character(len=*), intent(in) :: from, to
+      logical, intent(out) :: taken
+      type(error_type), allocatable, intent(out) :: error
+      type(error_type), allocatable :: ignored
+      integer(c_int) :: found, status
+
+      status = c_link(c_text(from), c_text(to), found)
+      taken = found /= 0
+      if (status /= 0) then
+         ! a file system without links, where the last of several that come at once has the name
+         call rename_path(from, to, error)
+      else
+         call remove_file(from, ignored)
+      end if
+   end subroutine claim_name
+
    !> Bring the names in a folder to the disk.
    subroutine sync_folder(path, error)
       character(len=*), intent(in) :: path
@@ -227,20 +256,32 @@ contains
       name = longer(:n)
    end subroutine list_folder
 
-   !> Take the lock of a lock file, which is made if need be. The lock ends with close of `fd` or with the process.
-   subroutine lock_file(path, holder, fd, state, error)
+   !> Take the lock of a lock file, which is made if need be. The lock ends with unlock_file or with the process.
+   subroutine lock_file(path, holder, fd, state, error, shared)
       character(len=*), intent(in) :: path
       character(len=*), intent(in) :: holder      !! written into the file, for whoever is refused
       integer(c_int), intent(out) :: fd           !! open unless the lock is held by another
       integer, intent(out) :: state               !! one of lock_*
       type(error_type), allocatable, intent(out) :: error
-      integer(c_int) :: found
+      logical, optional, intent(in) :: shared     !! hold it together with others who share it; default: alone
+      integer(c_int) :: found, together
 
-      call check(c_lock(c_text(path), c_text(holder), fd, found), "lock '"//path//"'", error)
+      together = 0
+      if (present(shared)) together = merge(1_c_int, 0_c_int, shared)
+      call check(c_lock(c_text(path), c_text(holder), together, fd, found), "lock '"//path//"'", error)
       state = found
    end subroutine lock_file
 
-   !> From now on SIGINT and SIGTERM are only noted, once; for a program, not for a library's caller.
+   !> End a lock; the last of its holders removes the file.
+   subroutine unlock_file(path, fd)
+      character(len=*), intent(in) :: path
+      integer(c_int), intent(inout) :: fd         !! negative: nothing is locked
+
+      if (fd >= 0) call c_unlock(c_text(path), fd)
+      fd = -1
+   end subroutine unlock_file
+
+   !> From now on SIGINT, SIGTERM and SIGUSR1 are only noted, once; for a program, not for a library's caller.
    subroutine catch_signals(notice, error)
       character(len=*), intent(in) :: notice      !! written to standard error when one comes; may be empty
       type(error_type), allocatable, intent(out) :: error
@@ -277,6 +318,13 @@ contains
       t = c_seconds()
    end function seconds
 
+   !> Let the processor go for a while.
+   subroutine nap(duration)
+      real(wp), intent(in) :: duration            !! [s], >= 0
+
+      call c_nap(duration)
+   end subroutine nap
+
    !> Now, as 2024-05-31T18:00:00Z.
    function utc_date() result(text)
       character(len=:), allocatable :: text
@@ -300,16 +348,12 @@ contains
       number = c_process()
    end function process_number
 
-   !> A number with so many significant digits, as %g of C; quicker than to_text, for millions of them.
-   function number_text(x, digits) result(text)
-      real(wp), intent(in) :: x
-      integer, intent(in) :: digits
-      character(len=:), allocatable :: text
-      character(kind=c_char) :: buffer(40)
+   !> A number that no other process has, on whatever host, while both run.
+   function process_mark() result(mark)
+      integer(i8) :: mark
 
-      call c_number(x, int(digits, c_int), buffer, size(buffer, kind=c_size_t))
-      call from_c(buffer, text)
-   end function number_text
+      mark = c_process_mark()
+   end function process_mark
 
    !> The system's own sentence for an error number.
    subroutine get_reason(number, text)

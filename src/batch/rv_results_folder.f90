@@ -1,7 +1,7 @@
 !> The folder of a run: what lies where, who works in it, whether it holds results or an unfinished run.
 !>
 !>     results.nc  summary.csv  run.log      what a run leaves
-!>     run.lock                              while one works here; says who
+!>     run.lock                              while one works here, or several slices; says who
 !>     parts/manifest  parts/block_*.part    finished blocks of a run whose results are not in place yet
 !>     parts.old/                            parts being removed
 module rv_results_folder
@@ -9,12 +9,17 @@ module rv_results_folder
    use rv_error, only : error_type, fail, rv_bad_input, rv_io
    use rv_text, only : text_type, to_text
    use rv_posix, only : host_name, list_folder, lock_file, lock_held, lock_none, make_folder, path_folder, path_kind, &
-      & path_none, process_number, remove_file, remove_folder, rename_path, sync_folder, utc_date
-   use rv_file, only : close_descriptor, new_suffix, read_whole_file
-   use rv_parts, only : is_part_name
+      & path_none, process_number, remove_file, remove_folder, rename_path, sync_folder, unlock_file, utc_date
+   use rv_file, only : new_suffix, read_whole_file
+   use rv_parts, only : block_of_name, is_part_name, is_unfinished_name
    implicit none
    private
-   public :: results_folder, netcdf_name, csv_name, log_name, manifest_name
+   public :: results_folder, to_run, to_run_slice, to_merge, netcdf_name, csv_name, log_name, manifest_name
+
+   !> What a folder is opened for.
+   integer, parameter :: to_run = 1         !! alone; a folder that is not there is made
+   integer, parameter :: to_run_slice = 2   !! together with other slices; it is made, too
+   integer, parameter :: to_merge = 3       !! alone
 
    character(len=*), parameter :: netcdf_name = "results.nc"
    character(len=*), parameter :: csv_name = "summary.csv"
@@ -29,15 +34,19 @@ module rv_results_folder
       character(len=:), allocatable :: path    !! without a slash at the end
       character(len=:), allocatable :: parts   !! folder of the parts; it need not be there
       logical :: has_lock = .true.             !! false: this file system has no locks
+      logical, private :: is_shared = .false.  !! other slices may work here at the same time
       integer(c_int), private :: lock = -1
       logical, private :: made_here = .false.
    contains
       procedure :: open => open_folder
+      procedure :: name => name_folder
       procedure :: close => close_folder
       procedure :: file
       procedure :: has_results
       procedure :: has_parts
+      procedure :: find_finished
       procedure :: make_parts
+      procedure :: drop_unfinished
       procedure :: discard_parts
       procedure, private :: find_or_make
       procedure, private :: take_lock
@@ -45,31 +54,39 @@ module rv_results_folder
 
 contains
 
-   !> Take the folder for this process alone, making it if asked to.
-   subroutine open_folder(self, path, may_make, error)
+   !> Take the folder for this process, or for slices of one run, making it if need be.
+   subroutine open_folder(self, path, purpose, error)
       class(results_folder), intent(inout) :: self
       character(len=*), intent(in) :: path
-      logical, intent(in) :: may_make
+      integer, intent(in) :: purpose              !! one of to_*
       type(error_type), allocatable, intent(out) :: error
 
-      self%path = without_slash(path)
-      self%parts = self%path//"/"//parts_name
+      call self%name(path)
+      self%is_shared = purpose == to_run_slice
       self%lock = -1
       self%made_here = .false.
-      call self%find_or_make(may_make, error)
+      call self%find_or_make(purpose /= to_merge, error)
       if (allocated(error)) return
       call self%take_lock(error)
-      if (.not. allocated(error)) call empty_folder(self%path//"/"//old_parts_name, error)
+      if (.not. (allocated(error) .or. self%is_shared)) call empty_folder(self%file(old_parts_name), error)
       if (allocated(error)) call self%close()
    end subroutine open_folder
+
+   !> Know the folder's places without taking it, for those who work on a run whose leader has it open.
+   subroutine name_folder(self, path)
+      class(results_folder), intent(inout) :: self
+      character(len=*), intent(in) :: path
+
+      self%path = without_slash(path)
+      self%parts = self%file(parts_name)
+   end subroutine name_folder
 
    !> Let others work here. A folder that this run made and left empty goes, too.
    subroutine close_folder(self)
       class(results_folder), intent(inout) :: self
       type(error_type), allocatable :: ignored
 
-      if (self%lock >= 0) call remove_file(self%file(lock_name), ignored)
-      call close_descriptor(self%lock)
+      call unlock_file(self%file(lock_name), self%lock)
       if (self%made_here) call remove_folder(self%path, ignored)
    end subroutine close_folder
 
@@ -113,18 +130,48 @@ contains
       end do
    end subroutine has_parts
 
+   !> Which blocks have a part, by the names alone: whether it is sound is seen when it is read.
+   subroutine find_finished(self, blocks, finished, error)
+      class(results_folder), intent(in) :: self
+      integer, intent(in) :: blocks               !! of the run
+      logical, allocatable, intent(out) :: finished(:)
+      type(error_type), allocatable, intent(out) :: error
+      type(text_type), allocatable :: name(:)
+      integer :: kind, i, block
+
+      allocate(finished(blocks), source=.false.)
+      call path_kind(self%parts, kind, error)
+      if (allocated(error) .or. kind /= path_folder) return
+      call list_folder(self%parts, name, error)
+      do i = 1, size(name)
+         block = block_of_name(name(i)%s)
+         if (block >= 1 .and. block <= blocks) finished(block) = .true.
+      end do
+   end subroutine find_finished
+
    !> Make the folder of the parts, if it is not there.
    subroutine make_parts(self, error)
       class(results_folder), intent(in) :: self
       type(error_type), allocatable, intent(out) :: error
-      integer :: kind
 
-      call path_kind(self%parts, kind, error)
-      if (allocated(error)) return
-      if (kind == path_none) call make_folder(self%parts, error)
+      call make_if_missing(self%parts, error)
       if (allocated(error)) return
       call sync_folder(self%path, error)
    end subroutine make_parts
+
+   !> Remove what killed workers left half-written; only for who is alone here.
+   subroutine drop_unfinished(self, error)
+      class(results_folder), intent(in) :: self
+      type(error_type), allocatable, intent(out) :: error
+      type(text_type), allocatable :: name(:)
+      integer :: i
+
+      call list_folder(self%parts, name, error)
+      do i = 1, size(name)
+         if (allocated(error)) return
+         if (is_unfinished_name(name(i)%s)) call remove_file(self%parts//"/"//name(i)%s, error)
+      end do
+   end subroutine drop_unfinished
 
    !> Remove all parts. They vanish in one step, so that a killed removal leaves no half of a run.
    subroutine discard_parts(self, error)
@@ -157,10 +204,25 @@ contains
       else if (parent_kind == path_none) then
          call fail(error, rv_io, "cannot make the folder '"//self%path//"': there is no folder '"//parent//"'")
       else
-         call make_folder(self%path, error)
+         call make_if_missing(self%path, error)
          self%made_here = .not. allocated(error)
       end if
    end subroutine find_or_make
+
+   !> Make a folder; another slice may have been quicker.
+   subroutine make_if_missing(path, error)
+      character(len=*), intent(in) :: path
+      type(error_type), allocatable, intent(out) :: error
+      type(error_type), allocatable :: ignored
+      integer :: kind
+
+      call path_kind(path, kind, error)
+      if (allocated(error) .or. kind == path_folder) return
+      call make_folder(path, error)
+      if (.not. allocated(error)) return
+      call path_kind(path, kind, ignored)
+      if (kind == path_folder) deallocate(error)
+   end subroutine make_if_missing
 
    subroutine take_lock(self, error)
       class(results_folder), intent(inout) :: self
@@ -171,13 +233,13 @@ contains
       logical :: found
 
       call lock_file(self%file(lock_name), "process "//to_text(process_number())//" on "//host_name() &
-         & //" since "//utc_date(), self%lock, state, error)
+         & //" since "//utc_date()//new_line("a"), self%lock, state, error, shared=self%is_shared)
       if (allocated(error)) return
       self%has_lock = state /= lock_none
       if (state /= lock_held) return
       self%lock = -1
       call read_whole_file(self%file(lock_name), holder, found, ignored)
-      call fail(error, rv_io, "another run is at work in '"//self%path//"' ("//trim(holder) &
+      call fail(error, rv_io, "another run is at work in '"//self%path//"' ("//last_line(holder) &
          & //"): wait until it ends, or choose another folder")
    end subroutine take_lock
 
@@ -195,12 +257,21 @@ contains
       if (allocated(error)) return
       do i = 1, size(name)
          if (.not. (is_part_name(name(i)%s) .or. name(i)%s == manifest_name &
-            & .or. name(i)%s == manifest_name//new_suffix)) cycle
+            & .or. index(name(i)%s, manifest_name//new_suffix) == 1)) cycle
          call remove_file(path//"/"//name(i)%s, error)
          if (allocated(error)) return
       end do
       call remove_folder(path, ignored)
    end subroutine empty_folder
+
+   !> Of the holders of a lock, the one that came last.
+   pure function last_line(text) result(line)
+      character(len=*), intent(in) :: text
+      character(len=:), allocatable :: line
+
+      line = text(:max(0, len(text) - 1))
+      line = line(index(line, new_line("a"), back=.true.) + 1:)
+   end function last_line
 
    pure function without_slash(path) result(bare)
       character(len=*), intent(in) :: path

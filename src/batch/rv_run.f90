@@ -1,62 +1,32 @@
-!> A whole run: folder, earlier parts, all blocks on all threads, results. Nothing here prints.
+!> A whole run: folder, earlier parts, all blocks, results. Nothing here prints.
 module rv_run
-   use, intrinsic :: iso_fortran_env, only : int32
    use omp_lib, only : omp_get_max_threads
    use rv_kinds, only : wp, i8
-   use rv_error, only : error_type, fail, rv_bad_input
+   use rv_error, only : error_type, fail, rv_bad_input, rv_io
    use rv_text, only : to_text
    use rv_posix, only : host_name, process_number, seconds, utc_date
-   use rv_file, only : file_type, read_whole_file, write_whole_file
+   use rv_file, only : file_type
+   use rv_crew, only : count_complete, count_damaged_blocks, count_done, count_failed, count_kept_blocks, count_new_blocks, &
+      & count_new_cases, count_stops, crew_type, lone_crew
    use rv_deck, only : deck_type
-   use rv_block, only : block_bounds, run_block
-   use rv_status, only : status_ok
-   use rv_inputs, only : input_values, new_manifest
+   use rv_inputs, only : new_manifest
    use rv_manifest, only : manifest_type
    use rv_merge, only : merge_parts
-   use rv_monitor, only : monitor_type, phase_cases, progress_type
-   use rv_parts, only : part_type, read_part, write_part
-   use rv_results_folder, only : log_name, manifest_name, netcdf_name, results_folder
-   use rv_results_origin, only : read_origin
-   use rv_tally, only : tally_type
+   use rv_monitor, only : monitor_type
+   use rv_results_folder, only : log_name, results_folder, to_merge, to_run, to_run_slice
+   use rv_run_plan, only : check_parts, plan_type, prepare_folder, read_manifest
+   use rv_run_terms, only : run_options, run_outcome
    use rv_version, only : code_version
+   use rv_workers, only : run_blocks
    implicit none
    private
-   public :: run_options, run_outcome, run_deck, merge_folder
+   public :: run_options, run_outcome, run_deck, run_with_crew, merge_folder
 
-   type :: run_options
-      character(len=:), allocatable :: folder   !! for the results
-      integer :: threads = 0                    !! 0: as many as OpenMP offers
-      logical :: resume = .false.               !! go on with an unfinished run of the same deck
-      logical :: force = .false.                !! replace results, drop an unfinished run
-   end type run_options
-
-   type :: run_outcome
-      type(tally_type) :: tally        !! of all cases; only with the results in place
-      integer :: threads = 1
-      integer :: blocks = 0
-      integer :: kept_blocks = 0       !! finished by earlier runs
-      integer :: new_blocks = 0        !! finished by this run
-      integer :: damaged_blocks = 0    !! found damaged and computed again
-      integer(i8) :: new_cases = 0     !! computed by this run
-      real(wp) :: seconds = 0.0_wp     !! computing and merging [s]
-      logical :: stopped = .false.     !! on request; can be resumed
-      logical :: was_complete = .false.!! the results were there already
-      logical :: unlocked = .false.    !! this file system has no locks
-      logical :: logged = .true.       !! run.log could be written
-   end type run_outcome
-
-   !> What is found in a folder, and what is to be done about it.
-   type :: plan_type
-      type(manifest_type) :: manifest
-      integer(int32) :: identity = 0
-      integer, allocatable :: todo(:)          !! blocks to run
-      integer(i8) :: kept_cases = 0
-      logical :: is_new = .false.              !! the folder of the parts was made, or emptied, by this run
-   end type plan_type
+   integer, parameter :: most_named = 6   !! missing blocks told one by one
 
 contains
 
-   !> Run every case of a deck that has no faults.
+   !> Run every case of a deck that has no faults, or those of a slice, in this process.
    !>
    !> Codes of `error`: rv_bad_input when the folder holds what the options do not allow to replace or to go on
    !> with, rv_io for trouble with files. Finished blocks are kept either way and count in `outcome`.
@@ -66,38 +36,125 @@ contains
       class(monitor_type), intent(inout) :: monitor
       type(run_outcome), intent(out) :: outcome
       type(error_type), allocatable, intent(out) :: error
+      type(lone_crew) :: crew
+
+      call run_with_crew(deck, options, crew, monitor, outcome, error)
+   end subroutine run_deck
+
+   !> The same by a crew, all of whose processes call this with the same deck and options. An error is everyone's;
+   !> `outcome` is told to the leader.
+   subroutine run_with_crew(deck, options, crew, monitor, outcome, error)
+      type(deck_type), intent(in) :: deck
+      type(run_options), intent(in) :: options
+      class(crew_type), intent(inout) :: crew
+      class(monitor_type), intent(inout) :: monitor
+      type(run_outcome), intent(out) :: outcome
+      type(error_type), allocatable, intent(out) :: error
       type(results_folder) :: folder
       type(plan_type) :: plan
+      logical :: is_open, is_complete
+
+      call new_manifest(deck, plan%manifest)
+      plan%identity = plan%manifest%identity()
+      outcome%processes = crew%processes
+      outcome%blocks = plan%manifest%blocks
+      outcome%own_blocks = options%block_total(outcome%blocks)
+      outcome%threads = options%threads
+      if (options%threads == 0) outcome%threads = omp_get_max_threads()
+      outcome%threads = min(outcome%threads, max(1, outcome%own_blocks))
+      is_open = .false.
+      if (crew%leads) then
+         call folder%open(options%folder, merge(to_run_slice, to_run, options%is_slice()), error)
+         is_open = .not. allocated(error)
+         outcome%unlocked = .not. folder%has_lock
+      else
+         call folder%name(options%folder)
+      end if
+      if (is_open) call prepare_folder(folder, options, plan, outcome, error)
+      if (is_open .and. outcome%was_complete) call set_counter(crew, count_complete)
+      call crew%share(error)
+      is_complete = counted(crew, count_complete) > 0
+      if (.not. (allocated(error) .or. is_complete)) then
+         call run_and_merge(deck, folder, options, plan, crew, monitor, outcome, error)
+      end if
+      if (.not. is_open) return
+      if (plan%is_new .and. outcome%new_blocks == 0) call drop_empty_parts(folder)
+      call folder%close()
+   end subroutine run_with_crew
+
+   !> All blocks, then the results; the leader alone writes what is not a part.
+   subroutine run_and_merge(deck, folder, options, plan, crew, monitor, outcome, error)
+      type(deck_type), intent(in) :: deck
+      type(results_folder), intent(in) :: folder
+      type(run_options), intent(in) :: options
+      type(plan_type), intent(in) :: plan
+      class(crew_type), intent(inout) :: crew
+      class(monitor_type), intent(inout) :: monitor
+      type(run_outcome), intent(inout) :: outcome
+      type(error_type), allocatable, intent(out) :: error
       real(wp) :: start
 
       start = seconds()
-      outcome%threads = options%threads
-      if (options%threads == 0) outcome%threads = omp_get_max_threads()
-      call new_manifest(deck, plan%manifest)
-      plan%identity = plan%manifest%identity()
-      outcome%blocks = plan%manifest%blocks
-      call folder%open(options%folder, .true., error)
-      if (allocated(error)) return
-      outcome%unlocked = .not. folder%has_lock
-      call prepare(folder, options, plan, outcome, error)
-      if (.not. (allocated(error) .or. outcome%was_complete)) then
-         outcome%threads = min(outcome%threads, max(1, size(plan%todo)))
-         call log_line(folder, outcome, "run of '"//deck%name//"' with reedvalve "//code_version//", cases: " &
-            & //to_text(plan%manifest%cases)//", blocks: "//to_text(plan%manifest%blocks)//", finished before: " &
-            & //to_text(outcome%kept_blocks)//", threads: "//to_text(outcome%threads))
-         call run_blocks(deck, folder, plan, monitor, outcome, error)
-         if (.not. (allocated(error) .or. outcome%stopped)) call merge_parts(folder, plan%manifest, monitor, &
-            & outcome%tally, outcome%stopped, error)
+      if (crew%leads) then
+         call count_finished(folder, outcome)
+         call log_line(folder, outcome, "run of '"//deck%name//"'"//slice_text(options)//" with reedvalve "//code_version &
+            & //", cases: "//to_text(plan%manifest%cases)//", blocks: "//to_text(plan%manifest%blocks) &
+            & //", finished before: "//to_text(outcome%finished_blocks)//", processes: "//to_text(outcome%processes) &
+            & //", threads of each: "//to_text(outcome%threads))
+      else
+         ! a process that sees another folder or another deck has to say so before it writes parts
+         call check_parts(folder, plan, error)
+      end if
+      call crew%share(error)
+      if (.not. allocated(error)) then
+         call run_blocks(deck, folder, options, plan, outcome%threads, crew, monitor, error)
+         call crew%share(error)
+      end if
+      call sum_up(crew, outcome)
+      if (crew%leads) then
+         call count_finished(folder, outcome)
+         if (.not. (allocated(error) .or. outcome%stopped .or. options%is_slice())) call merge_parts(folder, &
+            & plan%manifest, outcome%threads, monitor, outcome%tally, outcome%stopped, error)
          outcome%seconds = seconds() - start
          call log_end(folder, outcome, error)
       end if
-      if (plan%is_new .and. outcome%new_blocks == 0) call drop_empty_parts(folder)
-      call folder%close()
-   end subroutine run_deck
+      call crew%share(error)
+   end subroutine run_and_merge
+
+   !> What the counters of the crew say.
+   subroutine sum_up(crew, outcome)
+      class(crew_type), intent(inout) :: crew
+      type(run_outcome), intent(inout) :: outcome
+
+      outcome%tally%cases = counted(crew, count_done)
+      outcome%tally%failed = counted(crew, count_failed)
+      outcome%new_cases = counted(crew, count_new_cases)
+      outcome%new_blocks = int(counted(crew, count_new_blocks))
+      outcome%kept_blocks = int(counted(crew, count_kept_blocks))
+      outcome%damaged_blocks = int(counted(crew, count_damaged_blocks))
+      outcome%stopped = counted(crew, count_stops) > 0
+   end subroutine sum_up
+
+   !> What a counter stands at.
+   integer(i8) function counted(crew, counter)
+      class(crew_type), intent(inout) :: crew
+      integer, intent(in) :: counter
+
+      call crew%add(counter, 0_i8, counted)
+   end function counted
+
+   subroutine set_counter(crew, counter)
+      class(crew_type), intent(inout) :: crew
+      integer, intent(in) :: counter
+      integer(i8) :: before
+
+      call crew%add(counter, 1_i8, before)
+   end subroutine set_counter
 
    !> Write the results of a run whose blocks are all finished, from nothing but its folder.
-   subroutine merge_folder(path, monitor, outcome, error)
+   subroutine merge_folder(path, threads, monitor, outcome, error)
       character(len=*), intent(in) :: path
+      integer, intent(in) :: threads              !! 0: as many as OpenMP offers
       class(monitor_type), intent(inout) :: monitor
       type(run_outcome), intent(out) :: outcome
       type(error_type), allocatable, intent(out) :: error
@@ -107,7 +164,7 @@ contains
       real(wp) :: start
 
       start = seconds()
-      call folder%open(path, .false., error)
+      call folder%open(path, to_merge, error)
       if (allocated(error)) return
       outcome%unlocked = .not. folder%has_lock
       call read_manifest(folder, manifest, found, error)
@@ -119,188 +176,51 @@ contains
       end if
       if (.not. allocated(error)) then
          outcome%blocks = manifest%blocks
-         call merge_parts(folder, manifest, monitor, outcome%tally, outcome%stopped, error)
+         outcome%threads = threads
+         if (threads == 0) outcome%threads = omp_get_max_threads()
+         call check_all_there(folder, manifest%blocks, error)
+         if (.not. allocated(error)) call merge_parts(folder, manifest, outcome%threads, monitor, &
+            & outcome%tally, outcome%stopped, error)
          outcome%seconds = seconds() - start
          call log_end(folder, outcome, error)
       end if
       call folder%close()
    end subroutine merge_folder
 
-   !> Look at the folder, refuse or make way, and find the blocks to run.
-   subroutine prepare(folder, options, plan, outcome, error)
+   !> Fail if blocks are missing, and say which.
+   subroutine check_all_there(folder, blocks, error)
       type(results_folder), intent(in) :: folder
-      type(run_options), intent(in) :: options
-      type(plan_type), intent(inout) :: plan
-      type(run_outcome), intent(inout) :: outcome
+      integer, intent(in) :: blocks
       type(error_type), allocatable, intent(out) :: error
-      logical :: results, parts
+      logical, allocatable :: finished(:)
+      character(len=:), allocatable :: names
+      integer :: block, named
 
-      call folder%has_results(results, error)
-      if (.not. allocated(error)) call folder%has_parts(parts, error)
+      call folder%find_finished(blocks, finished, error)
       if (allocated(error)) return
-      if (options%force) then
-         call folder%discard_parts(error)
-      else if (options%resume) then
-         if (parts) call check_parts(folder, plan, error)
-         if (results .and. .not. parts) call check_results(folder, plan, outcome, error)
-      else if (parts) then
-         call fail(error, rv_bad_input, "'"//folder%path//"' holds an unfinished run: --resume goes on with it, " &
-            & //"--force starts anew")
-      else if (results) then
-         call fail(error, rv_bad_input, "'"//folder%path//"' holds results: choose another folder with -o, " &
-            & //"or replace them with --force")
-      end if
-      if (allocated(error) .or. outcome%was_complete) return
-      plan%is_new = options%force .or. .not. parts
-      call folder%make_parts(error)
-      if (.not. allocated(error)) call write_whole_file(folder%parts//"/"//manifest_name, &
-         & plan%manifest%to_text(), error)
-      if (.not. allocated(error)) call find_work(folder, plan, outcome)
-   end subroutine prepare
-
-   !> Fail unless the parts in the folder are of this very run.
-   subroutine check_parts(folder, plan, error)
-      type(results_folder), intent(in) :: folder
-      type(plan_type), intent(in) :: plan
-      type(error_type), allocatable, intent(out) :: error
-      type(manifest_type) :: found
-      character(len=:), allocatable :: difference
-      integer(int32) :: identity
-      logical :: exists
-
-      call read_manifest(folder, found, exists, error)
-      if (allocated(error) .or. .not. exists) return
-      difference = plan%manifest%difference(found)
-      identity = found%identity()
-      if (difference == "" .and. identity /= plan%identity) difference = "it was made by another build of reedvalve"
-      if (difference /= "") call fail(error, rv_bad_input, "cannot resume the run in '"//folder%path//"': " &
-         & //difference//"; choose another folder with -o, or start anew with --force")
-   end subroutine check_parts
-
-   !> Results are there already: fine if they are of this deck, else refused.
-   subroutine check_results(folder, plan, outcome, error)
-      type(results_folder), intent(in) :: folder
-      type(plan_type), intent(in) :: plan
-      type(run_outcome), intent(inout) :: outcome
-      type(error_type), allocatable, intent(out) :: error
-      type(manifest_type) :: found
-      character(len=:), allocatable :: difference
-
-      call read_origin(folder%file(netcdf_name), found, outcome%tally%cases, outcome%tally%failed, error)
-      if (allocated(error)) then
-         difference = error%message
-         deallocate(error)
-      else
-         difference = plan%manifest%difference(found)
-      end if
-      outcome%was_complete = difference == ""
-      if (difference /= "") call fail(error, rv_bad_input, "'"//folder%path//"' holds results that are not of this " &
-         & //"run ("//difference//"): choose another folder with -o, or replace them with --force")
-   end subroutine check_results
-
-   subroutine read_manifest(folder, manifest, found, error)
-      type(results_folder), intent(in) :: folder
-      type(manifest_type), intent(out) :: manifest
-      logical, intent(out) :: found
-      type(error_type), allocatable, intent(out) :: error
-      character(len=:), allocatable :: text, path
-
-      path = folder%parts//"/"//manifest_name
-      call read_whole_file(path, text, found, error)
-      if (allocated(error) .or. .not. found) return
-      call manifest%from_text(text, error)
-      if (allocated(error)) error%message = "cannot use '"//path//"': "//error%message
-   end subroutine read_manifest
-
-   !> Every block whose part is not there, or not as it was written, is to be run.
-   subroutine find_work(folder, plan, outcome)
-      type(results_folder), intent(in) :: folder
-      type(plan_type), intent(inout) :: plan
-      type(run_outcome), intent(inout) :: outcome
-      type(error_type), allocatable :: damage
-      type(part_type) :: part
-      logical :: found
-      integer :: block, n
-
-      allocate(plan%todo(plan%manifest%blocks))
-      n = 0
-      do block = 1, plan%manifest%blocks
-         call read_part(folder%parts, plan%identity, block, part, found, damage)
-         if (allocated(damage)) outcome%damaged_blocks = outcome%damaged_blocks + 1
-         if (found) then
-            outcome%kept_blocks = outcome%kept_blocks + 1
-            plan%kept_cases = plan%kept_cases + size(part%result%status)
-         else
-            n = n + 1
-            plan%todo(n) = block
-         end if
+      if (all(finished)) return
+      names = ""
+      named = 0
+      do block = 1, blocks
+         if (finished(block)) cycle
+         named = named + 1
+         if (named > most_named) exit
+         names = names//", "//to_text(block)
       end do
-      plan%todo = plan%todo(:n)
-   end subroutine find_work
+      if (named > most_named) names = names//", ..."
+      call fail(error, rv_io, to_text(count(.not. finished))//" of "//to_text(blocks)//" blocks are not finished ("//names(3:) &
+         & //"): run the slices that are missing, or all that is left with run ... --resume")
+   end subroutine check_all_there
 
-   !> Run the blocks that are left, each on one thread.
-   subroutine run_blocks(deck, folder, plan, monitor, outcome, error)
-      type(deck_type), intent(in) :: deck
+   subroutine count_finished(folder, outcome)
       type(results_folder), intent(in) :: folder
-      type(plan_type), intent(in) :: plan
-      class(monitor_type), intent(inout) :: monitor
       type(run_outcome), intent(inout) :: outcome
-      type(error_type), allocatable, intent(out) :: error
-      type(progress_type) :: progress
-      real(wp) :: start
-      integer :: i
+      type(error_type), allocatable :: ignored
+      logical, allocatable :: finished(:)
 
-      start = seconds()
-      progress = progress_type(phase_cases, plan%manifest%cases, plan%kept_cases, plan%kept_cases)
-      call monitor%report(progress)
-      !$omp parallel do schedule(dynamic, 1) num_threads(outcome%threads) default(none) &
-      !$omp & shared(deck, folder, plan, monitor, outcome, error, progress, start)
-      do i = 1, size(plan%todo)
-         call run_and_write(deck, folder, plan, plan%todo(i), start, monitor, progress, outcome, error)
-      end do
-      !$omp end parallel do
-   end subroutine run_blocks
-
-   !> Run one block and write its part, unless the run is to stop or has failed; several threads do so at a time.
-   subroutine run_and_write(deck, folder, plan, block, start, monitor, progress, outcome, error)
-      type(deck_type), intent(in) :: deck
-      type(results_folder), intent(in) :: folder
-      type(plan_type), intent(in) :: plan
-      integer, intent(in) :: block
-      real(wp), intent(in) :: start                            !! of the phase [s]
-      class(monitor_type), intent(inout) :: monitor            !! this and what follows is shared
-      type(progress_type), intent(inout) :: progress
-      type(run_outcome), intent(inout) :: outcome
-      type(error_type), allocatable, intent(inout) :: error
-      type(error_type), allocatable :: failure
-      type(part_type) :: part
-      integer(i8) :: first, last
-      logical :: go_on
-
-      !$omp critical (rv_run_state)
-      if (.not. outcome%stopped) outcome%stopped = monitor%stop_asked()
-      go_on = .not. (outcome%stopped .or. allocated(error))
-      !$omp end critical (rv_run_state)
-      if (.not. go_on) return
-
-      call block_bounds(deck, block, first, last)
-      call input_values(deck, first, last, part%input)
-      call run_block(deck, first, last, part%result)
-      call write_part(folder%parts, plan%identity, block, part, failure)
-
-      !$omp critical (rv_run_state)
-      if (allocated(failure)) then
-         if (.not. allocated(error)) call move_alloc(failure, error)
-      else
-         outcome%new_blocks = outcome%new_blocks + 1
-         outcome%new_cases = outcome%new_cases + last - first + 1
-         progress%done = progress%done + last - first + 1
-         progress%failed = progress%failed + count(part%result%status /= status_ok)
-         progress%seconds = seconds() - start
-         call monitor%report(progress)
-      end if
-      !$omp end critical (rv_run_state)
-   end subroutine run_and_write
+      call folder%find_finished(outcome%blocks, finished, ignored)
+      outcome%finished_blocks = count(finished)
+   end subroutine count_finished
 
    !> A run that finished no block leaves no unfinished run behind.
    subroutine drop_empty_parts(folder)
@@ -309,6 +229,15 @@ contains
 
       call folder%discard_parts(ignored)
    end subroutine drop_empty_parts
+
+   !> ", slice 2/7"
+   pure function slice_text(options) result(text)
+      type(run_options), intent(in) :: options
+      character(len=:), allocatable :: text
+
+      text = ""
+      if (options%is_slice()) text = ", slice "//to_text(options%slice)//"/"//to_text(options%slices)
+   end function slice_text
 
    subroutine log_end(folder, outcome, error)
       type(results_folder), intent(in) :: folder

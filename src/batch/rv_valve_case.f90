@@ -3,7 +3,7 @@ module rv_valve_case
    use, intrinsic :: ieee_arithmetic, only : ieee_is_nan
    use rv_kinds, only : wp, pi
    use rv_error, only : error_type, fail, rv_bad_input
-   use rv_case_facts, only : case_facts, tell, fluid_of, load_of, amplitudes_of
+   use rv_case_facts, only : case_facts, tell, film_is_closed, fluid_of, load_of, amplitudes_of
    use rv_film_case, only : planform_cache, new_film_cases
    use rv_hydrodynamic_load, only : hydrodynamic_load, new_hydrodynamic_load
    use rv_keys, only : n_keys, model_squeeze, model_film, model_film_table, kind_trace, start_equilibrium, &
@@ -70,7 +70,7 @@ contains
       do i = 1, size(facts)
          if (.not. is_immersed(reed, value(:, i))) call immerse(reed, value(:, i))
          call new_lumped_case(value(:, i), reed, valve(i), facts(i))
-         fine(i) = .not. allocated(facts(i)%error)
+         fine(i) = .not. (allocated(facts(i)%error) .or. facts(i)%is_closed)
       end do
       if (.not. any(fine)) return
       allocate(lumped)
@@ -117,6 +117,7 @@ contains
          valve%area = value(key_reed_action_area_mm2)
          if (ieee_is_nan(valve%area)) valve%area = 0.25_wp*pi*value(key_reed_hole_diameter_mm)**2
          valve%gap = value(key_film_gap_mm)
+         facts%is_closed = film_is_closed(value)
          if (nint(value(key_run_model)) == model_squeeze) then
             valve%squeeze = squeeze_coefficient(value(key_film_k_s), value(key_fluid_viscosity_pa_s), reed%length, reed%width)
             valve%both_ways = nint(value(key_film_acts)) == acts_both

@@ -44,16 +44,16 @@ contains
       real(wp), intent(in) :: poisson_ratio                        !! [-], the planform's
       integer, intent(in) :: load                                  !! load_maali, load_sader or load_none
       type(fluid_type), intent(in) :: fluid
-      real(wp), intent(in) :: gap                                  !! [m], > 0
+      real(wp), intent(in) :: gap                                  !! [m], >= 0
       type(error_type), allocatable, intent(out) :: error
       real(wp), parameter :: tolerance = 1.0e-14_wp   !! of omega; the rounding of Sader's Gamma is some 1e-15
       real(wp) :: rigidity, areal_mass, omega, slope, last(2)
       real(wp), dimension(reed%plate%modes + 1, reed%plate%modes + 1) :: added_mass, added_damping
       integer :: n, i, iteration
 
-      if (.not. (thickness > 0.0_wp .and. density > 0.0_wp .and. youngs_modulus > 0.0_wp .and. gap > 0.0_wp &
+      if (.not. (thickness > 0.0_wp .and. density > 0.0_wp .and. youngs_modulus > 0.0_wp .and. gap >= 0.0_wp &
          & .and. fluid%density > 0.0_wp .and. fluid%viscosity > 0.0_wp)) then
-         call fail(error, rv_bad_input, "the film models need thickness, densities, Young's modulus, viscosity and gap > 0")
+         call fail(error, rv_bad_input, "the film models need thickness, densities, Young's modulus and viscosity > 0, gap >= 0")
          return
       end if
       if (all(load /= [load_maali, load_sader, load_none])) then

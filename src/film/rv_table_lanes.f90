@@ -109,21 +109,25 @@ contains
       if (closed > 0) closed = first - 1 + closed
    end subroutine linearise
 
-   !> -C_s u' and its rate. The lowest pressure is not known to the table: it comes with traces only.
+   !> -C_s u' and its rate. A reed that closes leaves no place of the film below the pressures beyond its edges.
    subroutine film_force(self, lane, inlet, outlet, q, v, a, force, rate)
       class(table_lanes), intent(inout) :: self
       integer, intent(in) :: lane
       real(wp), intent(in) :: inlet, outlet
       real(wp), intent(in) :: q(self%dofs), v(self%dofs), a(self%dofs)
       real(wp), intent(out) :: force, rate
-      real(wp) :: y, y_slope, area, area_slope, film
+      real(wp) :: x, y, y_slope, area, area_slope, film, drop, low
 
-      associate (unused => [inlet, outlet])
-      end associate
-      call self%table%look_up(1.0_wp + q(1)*self%inverse_gap(lane), y, y_slope, area, area_slope)
+      x = 1.0_wp + q(1)*self%inverse_gap(lane)
+      call self%table%look_up(x, y, y_slope, area, area_slope)
       film = self%film_scale(lane)/y**3
       force = -film*v(1)
       rate = film*(3.0_wp*y_slope/y*self%inverse_gap(lane)*v(1)**2 - a(1))
+      if (.not. self%has_film(lane)) return
+      drop = self%inlet(lane)*inlet - self%outlet(lane)*outlet
+      low = min(0.0_wp, drop)
+      if (v(1) > 0.0_wp) low = self%table%lowest_pressure(x, drop, -force)
+      self%lowest_pressure(lane) = min(self%lowest_pressure(lane), self%outlet(lane)*outlet + low)
    end subroutine film_force
 
    !> k u = (p_in - p_out) (int_hole psi + A_land(u)) by Newton's method, kept above the table's lowest x.

@@ -1,5 +1,6 @@
 !> Blocks of cases: order, grouping, cutting and threads change nothing.
 program test_block
+   use, intrinsic :: ieee_arithmetic, only : ieee_is_nan
    use rv_kinds, only : wp, i8
    use rv_deck, only : deck_type
    use rv_block, only : block_result, run_block, block_count, block_bounds
@@ -14,6 +15,7 @@ program test_block
    call widths_agree()
    call blocks_agree()
    call threads_agree()
+   call models_apart()
    call histories_apart()
    call tolerances_apart()
    call suite%finish()
@@ -94,15 +96,23 @@ contains
       end do
    end subroutine blocks_agree
 
-   !> Two threads that take blocks as they come: not one bit differs from one thread.
+   !> Two threads that take blocks as they come: not one bit differs from one thread, nor a letter.
    subroutine threads_agree()
+      call on_two_threads("cases that end well", "&run model = 'squeeze', 'traditional', block_size = 5, traces = .true., " &
+         & //"trace_dt_ms = 0.5 /~"//twelve)
+      call on_two_threads("cases with warnings", "&run t_end_ms = 1, block_size = 1 /~&fluid viscosity_pa_s = 0.005 /~"//twelve)
+      call on_two_threads("cases that fail", "&run model = 'squeeze', 'traditional', block_size = 1 /~&solver max_steps = 60 /~" &
+         & //twelve)
+   end subroutine threads_agree
+
+   subroutine on_two_threads(what, text)
+      character(len=*), intent(in) :: what, text
       type(block_result), allocatable :: one(:), two(:)
       type(deck_type) :: deck
-      integer :: i, n
+      integer :: i, k, n
       logical :: same
 
-      call read_good(suite, "&run model = 'squeeze', 'traditional', block_size = 5, traces = .true., " &
-         & //"trace_dt_ms = 0.5 /~"//twelve, deck)
+      call read_good(suite, text, deck)
       n = block_count(deck)
       allocate(one(n), two(n))
       do i = 1, n
@@ -118,10 +128,12 @@ contains
          same = same .and. same_bits(one(i)%measure, two(i)%measure) .and. same_bits(one(i)%fact, two(i)%fact)
          same = same .and. all(transfer(one(i)%trace, [1_i8], size(one(i)%trace)) &
             & == transfer(two(i)%trace, [1_i8], size(two(i)%trace)))
+         do k = 1, size(one(i)%message)
+            same = same .and. one(i)%message(k)%s == two(i)%message(k)%s
+         end do
       end do
-      call suite%true("two threads, the same bits", same)
-
-   end subroutine threads_agree
+      call suite%true(what//" on two threads", same)
+   end subroutine on_two_threads
 
    subroutine run_nth(deck, i, result)
       type(deck_type), intent(in) :: deck
@@ -132,6 +144,30 @@ contains
       call block_bounds(deck, i, first, last)
       call run_block(deck, first, last, result)
    end subroutine run_nth
+
+   !> Models do not share an integrator, whatever their order: each case is as in a deck of its model, to the last bit.
+   subroutine models_apart()
+      type(block_result) :: all_four, one
+      character(len=*), parameter :: rest = " t_end_ms = 1.5, traces = .true., trace_dt_ms = 0.5 /~&film modes = 2 /~" &
+         & //"&sweep key = 'film.gap_mm', values = 0.1, 0.05, 0.2 /"
+      character(len=11), parameter :: model(4) = [character(len=11) :: "film_table", "squeeze", "film", "traditional"]
+      integer :: i
+      logical :: same
+
+      call run_all(suite, "&run model = 'film_table', 'squeeze', 'film', 'traditional',"//rest, all_four)
+      call suite%true("four models: all end well", all(all_four%status == status_ok))
+      same = .true.
+      do i = 1, 4
+         call run_all(suite, "&run model = '"//trim(model(i))//"',"//rest, one)
+         same = same .and. same_bits(all_four%measure(:, 3*i - 2:3*i), one%measure) &
+            & .and. same_bits(all_four%fact(:, 3*i - 2:3*i), one%fact)
+      end do
+      call suite%true("each as in a deck of its model", same)
+      call suite%true("film models have values in all traces, lumped ones in the first five", &
+         & .not. any(ieee_is_nan(all_four%trace(:, :, [1, 2, 3, 7, 8, 9]))) .and. &
+         & all(ieee_is_nan(all_four%trace(:, 6:, [4, 5, 6, 10, 11, 12]))) .and. &
+         & .not. any(ieee_is_nan(all_four%trace(:, :5, [4, 5, 6, 10, 11, 12]))))
+   end subroutine models_apart
 
    !> Cases whose pressures run in other times do not share an integrator: each is as alone, to the last bit.
    subroutine histories_apart()

@@ -7,13 +7,15 @@ program test_cases
    use rv_status, only : status_ok, status_bad_case, status_film_closed, status_too_many_steps, warn_reynolds
    use rv_text, only : to_text
    use check, only : suite_type
-   use block_trial, only : run_all, read_good, agree, agreement, steady, rise, overshoot, fall, closing, undershoot, twelve
+   use block_trial, only : run_all, read_good, agree, agreement, same_bits, steady, rise, overshoot, fall, closing, &
+      & undershoot, twelve
    implicit none
    type(suite_type) :: suite
 
    call paper_tables()
    call ends_apart()
    call bad_cases()
+   call closed_from_the_start()
    call case_on_its_seat()
    call step_limit()
    call reynolds_warning()
@@ -66,12 +68,15 @@ contains
    !> Beyond the first 10000 cases, which are checked with the deck, each case checks itself.
    subroutine bad_cases()
       type(deck_type) :: deck
-      type(block_result) :: r
+      type(block_result) :: r, alone
 
-      call read_good(suite, "&sweep key = 'reed.hole_diameter_mm', from = 4, to = 6.0002, count = 10002 /", deck)
-      call run_block(deck, 10000_i8, 10002_i8, r)
-      call suite%true("holes up to the reed's width are fine", all(r%status(1:2) == status_ok))
-      call expect_bad("a hole wider than the reed", r, 3, "wider than the reed")
+      call read_good(suite, "&sweep key = 'pressure.inlet_kpa', values = 5, 40 /~" &
+         & //"&sweep key = 'reed.hole_diameter_mm', from = 4, to = 6.0002, count = 10002 /", deck)
+      call run_block(deck, 10001_i8, 10004_i8, r)
+      call suite%true("holes up to the reed's width are fine", all(r%status([1, 3, 4]) == status_ok))
+      call expect_bad("a hole wider than the reed", r, 2, "wider than the reed")
+      call run_block(deck, 10004_i8, 10004_i8, alone)
+      call suite%true("the cases after it are their own", agree(r%measure(:, 4:4), alone%measure))
 
       call read_good(suite, "&run t_end_ms = 30 /~&sweep key = 'pressure.transition_ms', from = 1, to = 20, count = 10001 /", deck)
       call run_block(deck, 9999_i8, 10001_i8, r)
@@ -91,8 +96,35 @@ contains
 
       call suite%equal(what//" is a bad case", r%status(i), status_bad_case)
       call suite%true("its reason: "//r%message(i)%s, index(r%message(i)%s, reason) > 0)
-      call suite%true("it has no measures", all(ieee_is_nan(r%measure(:, i))))
+      call suite%true("it has no measures and no facts", all(ieee_is_nan(r%measure(:, i))) .and. all(ieee_is_nan(r%fact(:, i))))
    end subroutine expect_bad
+
+   !> Gap 0: every model with a film ends at once and says where, whatever its start and edges; facts are known.
+   subroutine closed_from_the_start()
+      type(block_result) :: r, others
+      integer, parameter :: open_gap(12) = [1, 3, 4, 5, 7, 8, 9, 11, 12, 13, 15, 16]   !! of 16, whose second of four is shut
+      character(len=*), parameter :: models = "&run model = 'squeeze', 'film', 'film_table', 'traditional'", &
+         & gaps = "~&solver width = 2 /~&sweep key = 'film.gap_mm', values = 0.05, ", &
+         & where = "at t = 0 s: the film under the reed is closed over the whole land: the gap is 0"
+      character(len=*), parameter :: more(3) = [character(len=96) :: " /~&film modes = 1 /", &
+         & ", start = 'equilibrium' /~&film modes = 1 /", &
+         & ", traces = .true., trace_dt_ms = 10 /~&film modes = 1, edge_elongation = 0.65, fields_ms = 20 /"]
+      integer :: k, i
+
+      do k = 1, 3
+         call run_all(suite, models//trim(more(k))//gaps//"0, 0.1, 0.2 /", r)
+         call suite%true("closed: "//r%message(2)%s, all(r%status([2, 6, 10]) == status_film_closed) &
+            & .and. all([(r%message(i)%s == where, i=2, 10, 4)]))
+         call suite%true("nothing happened there", all(ieee_is_nan(r%measure(:, [2, 6, 10]))) &
+            & .and. all(ieee_is_nan(r%trace(:, :, [2, 6, 10]))) .and. all(ieee_is_nan(r%field(:, :, [2, 6, 10]))))
+         call suite%true("its facts are those of its neighbour", same_bits(r%fact(:6, [2, 6, 10]), r%fact(:6, [1, 5, 9])))
+         call suite%true("all others end well", all(r%status(open_gap) == status_ok) .and. r%status(14) == status_ok)
+         call run_all(suite, models//trim(more(k))//gaps//"0.1, 0.2 /", others)
+         call suite%true("to the last bit as without it", same_bits(r%measure(:, open_gap), others%measure) &
+            & .and. same_bits(r%fact(:, open_gap), others%fact))
+         call suite%true("without a film the gap does not matter", same_bits(r%measure(:, 14:14), r%measure(:, 13:13)))
+      end do
+   end subroutine closed_from_the_start
 
    !> A film too weak to stop its reed, in one group with others: it fails late, with its reason, and they do not notice.
    subroutine case_on_its_seat()

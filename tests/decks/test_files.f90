@@ -172,7 +172,7 @@ contains
          & //"plan.csv:1:29: 'film.gap_mm': a second column of this key~plan.csv:1:41: 'solver.width': " &
          & //"this key cannot vary from case to case; real keys, run.model and pressure.file can")
       call write_file("plan.csv", lines("film.gap_mm,film.k_s~1,0.1~-1,0.1~1~,nan~"))
-      call says(suite, "design, rows", deck, "plan.csv:3:1: film.gap_mm = -1: must be > 0 (mm)~" &
+      call says(suite, "design, rows", deck, "plan.csv:3:1: film.gap_mm = -1: must be >= 0 (mm)~" &
          & //"plan.csv:4:1: 1 columns; the header has 2~plan.csv:5:1: film.gap_mm = : a number is missing~" &
          & //"plan.csv:5:2: film.k_s = nan: NaN and infinity are not allowed")
       call write_file("plan.csv", lines("film.gap_mm~0.00005~0.1~"))

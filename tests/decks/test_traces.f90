@@ -25,6 +25,7 @@ program test_traces
    call of_files()
    call starts()
    call bounds()
+   call default_size()
    call memory()
    call suite%finish()
 
@@ -193,6 +194,32 @@ contains
             & (35 + block_size(i) - 1)/block_size(i), min(35, block_size(i)))
       end do
    end subroutine bounds
+
+   !> Left to themselves, blocks follow the number of cases: 512 cases at least, 64 blocks, then 4096 cases; with the
+   !> model film 16 at least. Never fewer than 64 blocks where there could be.
+   subroutine default_size()
+      integer, parameter :: side(7) = [5, 32, 64, 181, 256, 512, 1000]
+      integer, parameter :: largest(7) = [25, 512, 512, 512, 1024, 4096, 4096]
+      integer, parameter :: of_film(7) = [16, 16, 64, 496, 1024, 4096, 4096]
+      integer :: i
+
+      do i = 1, size(side)
+         call first_block("squeeze", side(i), largest(i))
+         call first_block("film", side(i), of_film(i))
+      end do
+   end subroutine default_size
+
+   subroutine first_block(model, side, cases)
+      character(len=*), intent(in) :: model
+      integer, intent(in) :: side, cases
+      type(deck_type) :: deck
+      integer(i8) :: first, last
+
+      call read_good(suite, "&run model = '"//model//"' /~&sweep key = 'film.gap_mm', from = 0.05, to = 0.09, count = " &
+         & //to_text(side)//" /~&sweep key = 'pressure.inlet_kpa', from = 5, to = 35, count = "//to_text(side)//" /", deck)
+      call block_bounds(deck, 1, first, last)
+      call suite%equal("a block of "//to_text(side)//" times "//to_text(side)//" cases with "//model, int(last), cases)
+   end subroutine first_block
 
    !> Blocks whose traces would take more than 64 MiB are smaller: 200001 samples of 5 values are 7.6 MiB. A case that
    !> alone takes more is a block.

@@ -4,6 +4,8 @@ program test_values
    use deck_trial, only : says
    implicit none
    type(suite_type) :: suite
+   character(len=*), parameter :: closed_film = "@:1:16: warning: film.gap_mm = 0: the film is closed from the start;" &
+      & //" such a case ends there as film_closed"
 
    call numbers()
    call other_types()
@@ -17,14 +19,19 @@ program test_values
 contains
 
    subroutine numbers()
-      call says(suite, "negative", "&film~ gap_mm = -0.05 /", "@:2:11: film.gap_mm = -0.05: must be > 0 (mm)")
-      call says(suite, "zero", "&film gap_mm = 0 /", "@:1:16: film.gap_mm = 0: must be > 0 (mm)")
+      call says(suite, "negative", "&film~ gap_mm = -0.05 /", "@:2:11: film.gap_mm = -0.05: must be >= 0 (mm)")
+      call says(suite, "zero", "&fluid viscosity_pa_s = 0 /", "@:1:25: fluid.viscosity_pa_s = 0: must be > 0 (Pa s)")
+      call says(suite, "a closed film", "&film gap_mm = 0 /", closed_film)
+      call says(suite, "closed, said otherwise", "&film gap_mm = 0.0d0 /", closed_film)
+      call says(suite, "no film that could be closed", "&film gap_mm = 0, k_s = 0 /", "")
+      call says(suite, "nor here", "&film gap_mm = 0 /~&run model = 'traditional' /", &
+         & "@:1:16: warning: film.gap_mm has no effect on the model 'traditional'")
       call says(suite, "zero that is allowed", "&film k_s = 0 /", "")
       call says(suite, "negative where zero is allowed", "&film k_s = -1e-9 /", &
          & "@:1:13: film.k_s = -1e-9: must be >= 0")
-      call says(suite, "huge", "&film gap_mm = 1e300 /", "@:1:16: film.gap_mm = 1e300: must be from 1e-6 to 1000 (mm)")
+      call says(suite, "huge", "&film gap_mm = 1e300 /", "@:1:16: film.gap_mm = 1e300: must be from 0 to 1000 (mm)")
       call says(suite, "tiny", "&film gap_mm = 1e-300 /", &
-         & "@:1:16: film.gap_mm = 1e-300: must be from 1e-6 to 1000 (mm)")
+         & "@:1:16: film.gap_mm = 1e-300: must be 0 or from 1e-6 to 1000 (mm)")
       call says(suite, "overflow", "&film gap_mm = 1e999 /", &
          & "@:1:16: film.gap_mm = 1e999: too large for a double-precision number")
       call says(suite, "underflow", "&film k_s = 1d-999 /", &
@@ -53,7 +60,7 @@ contains
          & "@:1:21: solver.max_steps = 1e5: not a whole number~@:1:33: solver.width = 2.0: not a whole number")
       call says(suite, "whole number, overflow", "&solver max_steps = 99999999999999999999 /", &
          & "@:1:21: solver.max_steps = 99999999999999999999: too large")
-      call says(suite, "whole number, range", "&run block_size = 0 /", "@:1:19: run.block_size = 0: must be > 0")
+      call says(suite, "whole number, range", "&run block_size = -1 /", "@:1:19: run.block_size = -1: must be >= 0")
       call says(suite, "lanes", "&solver width = 48 /", "@:1:17: solver.width = 48: must be a power of two")
       call says(suite, "lanes, negative", "&solver width = -1 /", "@:1:17: solver.width = -1: must be > 0")
    end subroutine numbers
@@ -166,7 +173,7 @@ contains
          & //"@:1:28: run.title = 3: must be a text in quotes: '3'~" &
          & //"@:2:24: fluid.density_kg_m3 = x: not a number~" &
          & //"@:3:1: &film is not closed: no '/' before the end of the file~" &
-         & //"@:3:16: film.gap_mm = -1: must be > 0 (mm)~" &
+         & //"@:3:16: film.gap_mm = -1: must be >= 0 (mm)~" &
          & //"@:3:28: film.k_s: one value is due, 2 are given; a decimal has a point, not a comma")
    end subroutine several
 

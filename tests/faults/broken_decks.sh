@@ -12,7 +12,7 @@ broken() {
 # deck LINES: bad.nml
 deck() { printf '%s\n' "$@" >bad.nml; }
 
-deck "&run model = 'squeeze' /" "&film gap_mm = -0.05 /";             broken 2 'bad.nml:2:.*film.gap_mm = -0.05: must be > ?0'
+deck "&run model = 'squeeze' /" "&film gap_mm = -0.05 /";             broken 2 'bad.nml:2:.*film.gap_mm = -0.05: must be >= 0 [(]mm[)]'
 deck "&film gap = 0.05 /";                                            broken 2 'bad.nml:1:.*gap_mm'
 deck "&flim gap_mm = 0.05 /";                                         broken 2 'bad.nml:1:.*film'
 deck "&run model = 'sqeeze' /";                                       broken 2 'bad.nml:1:.*squeeze'

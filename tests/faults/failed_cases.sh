@@ -22,4 +22,27 @@ expect 1 'finished before' run deck.nml --resume
 printf "&hydro load = 'maali' /\n&reed thickness_mm = 0.3 /\n" >warned.nml
 expect 0 '1 of 1 cases are marked reynolds_range' run warned.nml
 holds "the summary has it" grep -q 'ok,.*Re = ' warned/summary.csv
+
+# both film models watch for cavitation, without traces too
+cat >suction.nml <<'END'
+&run model = 'film', 'film_table', t_end_ms = 3.0 /
+&film modes = 1, vapour_pressure_kpa = -20.0 /
+END
+expect 0 '2 of 2 cases are marked cavitation' run suction.nml
+rows=$(grep -Ec 'ok,.*falls to -(39|4[0-3])[.0-9]* kPa, below the vapour pressure' suction/summary.csv)
+if [ "$rows" = 2 ]; then pass "both tell how low"; else wrong "$rows of 2 tell how low: $(cat suction/summary.csv)"; fi
+
+# a film without a gap is closed before anything moves: its case ends there, whatever told the gap; others go on
+for model in squeeze film film_table; do
+   printf "&run model = '%s' /\n&film gap_mm = 0 /\n" $model >shut.nml
+   expect 1 'case 1 \(film_closed\): at t = 0 s: .*closed over the whole land: the gap is 0' run shut.nml --force
+done
+expect 0 'shut.nml:2:16: warning: film.gap_mm = 0: the film is closed from the start' check shut.nml
+expect 0 'The film is closed at film.gap_mm = 0' modes shut.nml
+printf "&run model = 'traditional' /\n&film gap_mm = 0 /\n" >shut.nml
+expect 0 '1 case, none failed' run shut.nml --force
+printf "film.gap_mm,pressure.period_ms\n0.05,40\n0,40\n0,30\n0.1,40\n" >shut.csv
+printf "&run model = 'squeeze', 'film_table' /\n&design file = 'shut.csv' /\n" >shut.nml
+expect 1 '8 cases, 4 failed \(4 film_closed\)' run shut.nml --force
+if grep -Eqi 'nan|inf' shut/summary.csv; then wrong "NaN in the summary"; else pass "no NaN in the summary"; fi
 finish

@@ -29,7 +29,7 @@ cp deck.nml keep.nml
 echo '! edited' >>deck.nml
 expect 2 'the deck was edited since' run deck.nml -o part --resume
 cp keep.nml deck.nml
-expect 3 'block [0-9]+ is not finished' merge part
+expect 3 '[0-9]+ of 16 blocks are not finished \([0-9, ]+(\.\.\.)?\)' merge part
 cp -r part copied
 expect 0 'of them were run now, the others before' run deck.nml -o part --resume
 same whole part

@@ -5,21 +5,23 @@ program test_bytes
    use check, only : suite_type
    use rv_checksum, only : crc32_of, crc32_text, hex_text
    use rv_error, only : error_type
-   use rv_file, only : close_descriptor, file_type, read_whole_file, write_whole_file
+   use rv_file, only : claim_whole_file, file_type, read_whole_file, write_whole_file
    use rv_kinds, only : wp, i8
-   use rv_posix, only : lock_file, lock_held, lock_ours, number_text, path_folder, path_kind, path_none, remove_file, &
-      & seconds
+   use rv_posix, only : list_folder, lock_file, lock_held, lock_ours, nap, path_folder, path_kind, path_none, &
+      & process_mark, remove_file, seconds, unlock_file
    use rv_records, only : add_record, next_record, record_count, record_value
-   use rv_text, only : to_text
+   use rv_text, only : text_type, to_text
    implicit none
    type(suite_type) :: suite
 
    call test_checksum()
    call test_whole_files()
+   call test_claims()
    call test_pieces()
    call test_records()
    call test_locks()
-   call test_numbers()
+   call test_shared_locks()
+   call test_clock()
    call suite%finish()
 
 contains
@@ -69,6 +71,29 @@ contains
       call write_whole_file("no/such/folder.txt", "x", error)
       call suite%fails("write where there is no folder", error, "cannot write 'no/such/folder.txt.new': No such file")
    end subroutine test_whole_files
+
+   !> Who comes second finds the first one's file, and leaves nothing.
+   subroutine test_claims()
+      type(error_type), allocatable :: error
+      character(len=:), allocatable :: text
+      type(text_type), allocatable :: before(:), after(:)
+      logical :: found, taken
+
+      call list_folder(".", before, error)
+      call claim_whole_file("claimed.txt", "the first", taken, error)
+      call suite%no_error("claim a name", error)
+      call suite%true("which nobody had", .not. taken)
+      call claim_whole_file("claimed.txt", "the second", taken, error)
+      call suite%no_error("claim it again", error)
+      call suite%true("somebody has it", taken)
+      call read_whole_file("claimed.txt", text, found, error)
+      call suite%text("the first stays", text, "the first")
+      call list_folder(".", after, error)
+      call suite%equal("files more than before", size(after) - size(before), 1)
+      call remove_file("claimed.txt", error)
+      call claim_whole_file("no/such/folder.txt", "x", taken, error)
+      call suite%fails("claim where there is no folder", error, "No such file")
+   end subroutine test_claims
 
    !> Text in pieces larger than the buffer, and a device without room.
    subroutine test_pieces()
@@ -136,7 +161,7 @@ contains
       call suite%equal("it is taken", state, lock_held)
       call read_whole_file("test.lock", text, found, error)
       call suite%text("the holder's name", text, "the first")
-      call close_descriptor(first)
+      call unlock_file("test.lock", first)
       call lock_file("test.lock", "short", second, state, error)
       call suite%equal("take it when it is free", state, lock_ours)
       call read_whole_file("test.lock", text, found, error)
@@ -144,22 +169,56 @@ contains
       call remove_file("test.lock", error)
       call lock_file("test.lock", "a third", first, state, error)
       call suite%equal("a removed file is a new lock", state, lock_ours)
-      call close_descriptor(first)
-      call close_descriptor(second)
+      call unlock_file("test.lock", first)
+      call unlock_file("test.lock", second)
       call remove_file("test.lock", error)
       call lock_file("no/such/lock", "x", first, state, error)
       call suite%fails("lock where there is no folder", error, "cannot lock 'no/such/lock'")
    end subroutine test_locks
 
-   subroutine test_numbers()
-      real(wp) :: start, later
+   !> Several share a lock; who wants it alone has to wait for the last of them, whose file goes with it.
+   subroutine test_shared_locks()
+      type(error_type), allocatable :: error
+      character(len=:), allocatable :: text
+      integer(c_int) :: first, second, alone
+      integer :: state, kind
+      logical :: found
 
-      call suite%text("12 digits", number_text(1.0_wp/3.0_wp, 12), "0.333333333333")
-      call suite%text("no zeros at the end", number_text(0.05_wp, 15), "0.05")
-      call suite%text("an exponent", number_text(-1.5e-7_wp, 12), "-1.5e-07")
+      call lock_file("shared.lock", "one ", first, state, error, shared=.true.)
+      call suite%equal("share a lock", state, lock_ours)
+      call lock_file("shared.lock", "two", second, state, error, shared=.true.)
+      call suite%equal("share it again", state, lock_ours)
+      call read_whole_file("shared.lock", text, found, error)
+      call suite%text("both names", text, "one two")
+      call lock_file("shared.lock", "three", alone, state, error)
+      call suite%equal("nobody has it alone", state, lock_held)
+      call unlock_file("shared.lock", first)
+      call path_kind("shared.lock", kind, error)
+      call suite%true("it stays while one is left", kind /= path_none)
+      call lock_file("shared.lock", "three", alone, state, error)
+      call suite%equal("still nobody has it alone", state, lock_held)
+      call unlock_file("shared.lock", second)
+      call path_kind("shared.lock", kind, error)
+      call suite%equal("it goes with the last", kind, path_none)
+      call lock_file("shared.lock", "three", alone, state, error)
+      call suite%equal("now it can be had alone", state, lock_ours)
+      call lock_file("shared.lock", "one", first, state, error, shared=.true.)
+      call suite%equal("and not be shared", state, lock_held)
+      call unlock_file("shared.lock", alone)
+   end subroutine test_shared_locks
+
+   subroutine test_clock()
+      real(wp) :: start, later
+      integer(i8) :: mark, again
+
       start = seconds()
       later = seconds()
       call suite%true("the clock does not run backwards", later >= start)
-   end subroutine test_numbers
+      call nap(0.002_wp)
+      call suite%true("a nap takes its time", seconds() - start >= 0.002_wp)
+      mark = process_mark()
+      again = process_mark()
+      call suite%true("a process keeps its mark", mark == again .and. mark /= 0_i8)
+   end subroutine test_clock
 
 end program test_bytes

@@ -6,7 +6,7 @@ program test_parts
    use rv_error, only : error_type
    use rv_file, only : read_whole_file, write_whole_file
    use rv_kinds, only : wp, i8
-   use rv_parts, only : is_part_name, part_name, part_type, read_part, write_part
+   use rv_parts, only : block_of_name, is_part_name, is_unfinished_name, part_name, part_type, read_part, write_part
    use rv_text, only : to_text
    implicit none
    integer(int32), parameter :: identity = -77_int32
@@ -25,6 +25,11 @@ contains
       call suite%text("name", part_name(17), "block_000000017.part")
       call suite%true("a part's name", is_part_name("block_000000017.part"))
       call suite%true("a part in the making", is_part_name("block_000000017.part.new"))
+      call suite%true("of a process of its own", is_part_name("block_000000017.part.new00c0ffee00000001"))
+      call suite%true("which is unfinished", is_unfinished_name("block_000000017.part.new00c0ffee00000001"))
+      call suite%true("others are not", .not. (is_unfinished_name("block_000000017.part") .or. is_unfinished_name("a.new")))
+      call suite%equal("the block of a name", block_of_name("block_000000017.part"), 17)
+      call suite%equal("and of no part", block_of_name("block_000000017.part.new") + block_of_name("block_00000001x.part"), 0)
       call suite%true("other names", .not. (is_part_name("block_17.part") .or. is_part_name("manifest") &
          & .or. is_part_name("block_000000017.party") .or. is_part_name("block_00000001x.part") .or. is_part_name("")))
    end subroutine test_names

@@ -1,0 +1,166 @@
+"""Ways to solve the cases, each a program of its own that is timed: reedvalve's lanes and what others use."""
+
+from __future__ import annotations
+
+import itertools
+import os
+import subprocess
+import sys
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from itertools import pairwise
+from pathlib import Path
+from statistics import median
+
+import numpy as np
+from sweep import LIMIT, all_cases, deck_text, largest_error, reference_times, spread_sample, write_cases
+
+LADDER = tuple(mantissa * 10.0**-exponent for exponent in range(3, 10) for mantissa in (1, 0.7, 0.5, 0.3, 0.2, 0.15))
+PEERS = Path(__file__).parent / "peers"
+
+
+@dataclass
+class Contender:
+    """One way to solve cases; `solve` takes a tolerance and at least so many seconds.
+
+    It gives the seconds of one round of all its cases and their fall and closing times [ms].
+    """
+
+    name: str
+    solve: Callable[[float, float], tuple[float, np.ndarray]]
+    cases: np.ndarray  # which of the 4096, from 0
+    cores: int = 1
+    rtol: float = float("nan")
+    error: float = float("nan")  # largest relative one of fall and closing time
+    seconds: list[float] = field(default_factory=list)  # of one round, each time it was measured
+
+    def errors_at(self, rtol: float) -> float:
+        """Largest error with a tolerance; infinite when the cases cannot be solved with it."""
+        try:
+            return largest_error(self.solve(rtol, 0.0)[1], reference_times()[self.cases])
+        except subprocess.CalledProcessError:
+            return float("inf")
+
+    def measure(self, enough: float) -> None:
+        """Once more, for so many seconds at least."""
+        seconds, times = self.solve(self.rtol, enough)
+        self.seconds.append(seconds)
+        self.error = largest_error(times, reference_times()[self.cases])
+
+    @property
+    def rate(self) -> float:
+        """Cases per second, of the median round."""
+        return len(self.cases) / median(self.seconds)
+
+    @property
+    def span(self) -> tuple[float, float]:
+        """Cases per second of the slowest and the fastest round."""
+        return len(self.cases) / max(self.seconds), len(self.cases) / min(self.seconds)
+
+
+def loosest_tolerance(contender: Contender, ladder: tuple[float, ...]) -> float:
+    """The first of the ladder that meets LIMIT and still does one step further down: met once may be luck."""
+    errors = {ladder[0]: contender.errors_at(ladder[0])}
+    for loose, tight in pairwise(ladder):
+        errors[tight] = contender.errors_at(tight)
+        if max(errors[loose], errors[tight]) < LIMIT:
+            return loose
+    raise SystemExit(f"benchmark: {contender.name} does not meet {LIMIT:g}: {errors}")
+
+
+class Bench:
+    """Where programs, decks and lists of cases are, and how each is run."""
+
+    def __init__(self, build: Path, peers: Path, folder: Path, cases: int = 4096) -> None:
+        self.kernel = build / "drivers" / "benchmarks" / "block_speed"
+        self.program = build / "drivers" / "reedvalve" / "reedvalve"
+        self.peers, self.folder = peers, folder
+        self.numbers = itertools.count()
+        self.some = spread_sample(cases) if cases < 4096 else np.arange(4096)  # of a smoke test
+        for path in (self.kernel, self.program):
+            if not path.is_file():
+                raise SystemExit(f"benchmark: {path} is not built")
+        self.methods = self.known_methods()
+
+    def new_file(self, suffix: str) -> Path:
+        """A name in the scratch folder that was not used yet."""
+        return self.folder / f"{next(self.numbers)}{suffix}"
+
+    def deck(self, *words: object, **keys: object) -> Path:
+        """A deck as deck_text says."""
+        path = self.new_file(".nml")
+        path.write_text(deck_text(*words, **keys), encoding="utf-8")
+        return path
+
+    def known_methods(self) -> list[str | None]:
+        """Values of solver.method; None where this build has no such key."""
+        deck = self.deck(1e-6, method="explicit")
+        known = subprocess.run([self.program, "check", deck], capture_output=True).returncode == 0
+        return ["implicit", "explicit"] if known else [None]
+
+    def run_kernel(self, deck: Path, threads: int, enough: float) -> tuple[float, np.ndarray]:
+        """Without files; the program takes its own time."""
+        table = self.new_file(".times")
+        out = run([self.kernel, deck, threads, table, enough])
+        times = np.loadtxt(table, delimiter=",")
+        table.unlink()
+        return float(out), times
+
+    def run_program(self, deck: Path, threads: int) -> tuple[float, float]:
+        """The whole program, results written: seconds, and its largest resident memory [MiB]."""
+        words = [self.program, "run", deck, "-o", deck.with_suffix(""), "--threads", threads, "--force", "--quiet"]
+        start = time.perf_counter()
+        process = subprocess.Popen([str(word) for word in words], stdout=subprocess.DEVNULL)
+        _, status, usage = os.wait4(process.pid, 0)
+        seconds = time.perf_counter() - start
+        process.returncode = os.waitstatus_to_exitcode(status)
+        if process.returncode != 0:
+            raise SystemExit(f"benchmark: reedvalve run failed with {process.returncode}")
+        return seconds, usage.ru_maxrss / 1024
+
+    def lanes(self, method: str | None, threads: int, **keys: object) -> Contender:
+        """reedvalve's own, without files."""
+
+        def solve(rtol: float, enough: float) -> tuple[float, np.ndarray]:
+            deck = self.deck(rtol, method=method, **keys)
+            return self.run_kernel(deck, threads, enough)
+
+        return Contender(f"reedvalve, {method or 'implicit'} lanes", solve, np.arange(4096), threads)
+
+    def peer(self, name: str, words: list[object], cases: np.ndarray) -> Contender:
+        """A peer's program."""
+        listed = all_cases()
+        path = write_cases(self.new_file(".csv"), [listed[i] for i in cases])
+
+        def solve(rtol: float, enough: float) -> tuple[float, np.ndarray]:
+            table = self.new_file(".times")
+            out = run([*words, path, f"{rtol:g}", enough, table])
+            return float(out), np.loadtxt(table, delimiter=",", ndmin=2)
+
+        return Contender(name, solve, cases)
+
+    odeint_name, cvode_name = "Boost.odeint Cash-Karp, C++", "CVODE BDF, C"
+
+    def cvode(self, cases: np.ndarray) -> Contender:
+        """CVODE on these cases."""
+        return self.peer(self.cvode_name, [self.peers / "cvode"], cases)
+
+    def all_peers(self, scipy: tuple[str, ...], few: int) -> list[Contender]:
+        """Those that were built; SciPy on `few` of the cases. What is left out is told."""
+        sample = spread_sample(min(few, len(self.some)))
+        rows = []
+        for name, word in ((self.odeint_name, "odeint"), (self.cvode_name, "cvode")):
+            if (self.peers / word).is_file():
+                rows.append(self.peer(name, [self.peers / word], self.some))
+            else:
+                print(f"benchmark: {name} is left out: {self.peers / word} is not there", file=sys.stderr)
+        for method in scipy:
+            rows.append(self.peer(f"SciPy {method}", [sys.executable, PEERS / "scipy_peer.py", method], sample))
+        return rows
+
+
+def run(words: list[object]) -> str:
+    """Standard output of a program that must not fail."""
+    done = subprocess.run([str(word) for word in words], check=True, capture_output=True, text=True)
+    return done.stdout
