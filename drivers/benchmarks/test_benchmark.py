@@ -110,3 +110,16 @@ def test_whole_benchmark(peers: Path, tmp_path: Path) -> None:
         rows = list(csv.DictReader(file))
     assert all(float(row["error"]) < LIMIT and float(row["cases/s"]) > 0.0 for row in rows)
     assert sum(row[""].startswith("reedvalve") for row in rows) in (2, 4)
+
+
+def test_lane_accuracy(tmp_path: Path) -> None:
+    """Few cases; tests/physics/test_company holds the errors themselves."""
+    if not (BUILD / "drivers" / "reedvalve" / "reedvalve").is_file():
+        pytest.skip(f"reedvalve is not built in {BUILD}")
+    words = [sys.executable, HERE / "lane_accuracy.py", "--build", BUILD, "--output", tmp_path, "--cases", "8"]
+    subprocess.run(words, check=True, capture_output=True)
+    assert (tmp_path / "lane_accuracy.md").is_file()
+    with open(tmp_path / "lane_accuracy_implicit.csv", newline="", encoding="utf-8") as file:
+        rows = list(csv.DictReader(file))
+    assert {row["lanes"] for row in rows} == {"1", "8", "64", "256"}
+    assert all(float(row["closing"]) < 1e-2 for row in rows)

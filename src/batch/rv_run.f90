@@ -13,7 +13,8 @@ module rv_run
    use rv_manifest, only : manifest_type
    use rv_merge, only : merge_parts
    use rv_monitor, only : monitor_type
-   use rv_results_folder, only : log_name, results_folder, to_merge, to_run, to_run_slice
+   use rv_room, only : check_room_for_run
+   use rv_results_folder, only : csv_name, log_name, results_folder, to_merge, to_run, to_run_slice
    use rv_run_plan, only : check_parts, plan_type, prepare_folder, read_manifest
    use rv_run_terms, only : run_options, run_outcome
    use rv_version, only : code_version
@@ -57,6 +58,7 @@ contains
       plan%identity = plan%manifest%identity()
       outcome%processes = crew%processes
       outcome%blocks = plan%manifest%blocks
+      outcome%has_csv = plan%manifest%has_csv
       outcome%own_blocks = options%block_total(outcome%blocks)
       outcome%threads = options%threads
       if (options%threads == 0) outcome%threads = omp_get_max_threads()
@@ -91,8 +93,13 @@ contains
       call crew%share(error)
       if (allocated(error)) return
       outcome%was_complete = counted(crew, count_complete) > 0
-      ! who sees another folder or another deck has to say so before it writes parts
-      if (.not. crew%leads) call check_parts(folder, plan, error)
+      if (crew%leads .and. .not. outcome%was_complete) then
+         call count_finished(folder, outcome)
+         call check_disk(folder, options, plan%manifest, outcome, error)
+      else if (.not. crew%leads) then
+         ! who sees another folder or another deck has to say so before it writes parts
+         call check_parts(folder, plan, error)
+      end if
       call crew%share(error)
    end subroutine enter_folder
 
@@ -110,7 +117,6 @@ contains
 
       start = seconds()
       if (crew%leads) then
-         call count_finished(folder, outcome)
          call log_line(folder, outcome, "run of '"//deck%name//"'"//slice_text(options)//" with reedvalve "//code_version &
             & //", cases: "//to_text(plan%manifest%cases)//", blocks: "//to_text(plan%manifest%blocks) &
             & //", finished before: "//to_text(outcome%finished_blocks)//", processes: "//to_text(outcome%processes) &
@@ -122,12 +128,26 @@ contains
       if (crew%leads) then
          call count_finished(folder, outcome)
          if (.not. (allocated(error) .or. outcome%stopped .or. options%is_slice())) call merge_parts(folder, &
-            & plan%manifest, monitor, outcome%tally, outcome%stopped, error)
+            & plan%manifest, outcome%threads, monitor, outcome%tally, outcome%stopped, error)
          outcome%seconds = seconds() - start
          call log_end(folder, outcome, error)
       end if
       call crew%share(error)
    end subroutine run_and_merge
+
+   !> Room for the parts that are left and, where this run writes them, the results?
+   subroutine check_disk(folder, options, manifest, outcome, error)
+      type(results_folder), intent(in) :: folder
+      type(run_options), intent(in) :: options
+      type(manifest_type), intent(in) :: manifest
+      type(run_outcome), intent(in) :: outcome
+      type(error_type), allocatable, intent(out) :: error
+      integer :: left
+
+      left = min(outcome%own_blocks, outcome%blocks - outcome%finished_blocks)
+      call check_room_for_run(folder%path, manifest, real(left, wp)/real(max(1, outcome%blocks), wp), &
+         & .not. options%is_slice(), error)
+   end subroutine check_disk
 
    !> What the counters of the crew say.
    subroutine sum_up(crew, outcome)
@@ -152,8 +172,9 @@ contains
    end function counted
 
    !> Write the results of a run whose blocks are all finished, from nothing but its folder.
-   subroutine merge_folder(path, monitor, outcome, error)
+   subroutine merge_folder(path, threads, monitor, outcome, error)
       character(len=*), intent(in) :: path
+      integer, intent(in) :: threads              !! 0: as many as OpenMP offers
       class(monitor_type), intent(inout) :: monitor
       type(run_outcome), intent(out) :: outcome
       type(error_type), allocatable, intent(out) :: error
@@ -175,8 +196,12 @@ contains
       end if
       if (.not. allocated(error)) then
          outcome%blocks = manifest%blocks
+         outcome%threads = threads
+         outcome%has_csv = manifest%has_csv
+         if (threads == 0) outcome%threads = omp_get_max_threads()
          call check_all_there(folder, manifest%blocks, error)
-         if (.not. allocated(error)) call merge_parts(folder, manifest, monitor, outcome%tally, outcome%stopped, error)
+         if (.not. allocated(error)) call merge_parts(folder, manifest, outcome%threads, monitor, &
+            & outcome%tally, outcome%stopped, error)
          outcome%seconds = seconds() - start
          call log_end(folder, outcome, error)
       end if
@@ -248,7 +273,8 @@ contains
          call log_line(folder, outcome, "stopped on request, "//rate)
       else
          call log_line(folder, outcome, "finished, "//rate//", cases failed: " &
-            & //to_text(outcome%tally%failed)//" of "//to_text(outcome%tally%cases))
+            & //to_text(outcome%tally%failed)//" of "//to_text(outcome%tally%cases) &
+            & //repeat(", no "//csv_name, merge(0, 1, outcome%has_csv)))
       end if
    end subroutine log_end
 

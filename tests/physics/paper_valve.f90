@@ -16,15 +16,18 @@ module paper_valve
 
 contains
 
-   !> One case: inlet pressure [Pa], gap [m], k_s [-] (0: traditional).
-   function valve_at(inlet, gap, k_s) result(valve)
+   !> One case: inlet pressure [Pa], gap [m], k_s [-] (0: traditional), viscosity [Pa s] (the paper's unless given).
+   function valve_at(inlet, gap, k_s, viscosity) result(valve)
       real(wp), intent(in) :: inlet, gap, k_s
+      real(wp), intent(in), optional :: viscosity
       type(lumped_valve) :: valve
       type(reed_type) :: reed
       type(hydrodynamic_load) :: load
-      type(fluid_type), parameter :: oil = fluid_type(density=875.0_wp, viscosity=0.0484_wp)
+      type(fluid_type) :: oil
       type(error_type), allocatable :: error
 
+      oil = fluid_type(density=875.0_wp, viscosity=0.0484_wp)
+      if (present(viscosity)) oil%viscosity = viscosity
       call new_reed(reed, 2.5_wp*mm, 4.0_wp*mm, 1.0_wp*mm, 6.0_wp*mm, 0.15_wp*mm, 8950.0_wp, 110.0e9_wp, 0.91_wp, error)
       if (allocated(error)) error stop "the paper's reed is refused"
       call new_hydrodynamic_load(load, load_published, reed, oil, error)
