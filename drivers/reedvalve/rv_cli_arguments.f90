@@ -32,7 +32,7 @@ module rv_cli_arguments
 
    type(command_type), parameter :: commands(8) = [ &
       & command_type("run", "DECK", .true., "-o --threads --slice --resume --force --quiet"), &
-      & command_type("merge", "DIR", .true., "--quiet"), &
+      & command_type("merge", "DIR", .true., "--threads --quiet"), &
       & command_type("check", "DECK", .true., "--quiet"), &
       & command_type("cases", "DECK", .true., "--threads"), &
       & command_type("modes", "DECK", .true., "--quiet"), &

@@ -64,7 +64,7 @@ contains
 
       progress%quiet = arguments%quiet
       call watch_signals(arguments%quiet)
-      call merge_folder(arguments%operand, progress, outcome, error)
+      call merge_folder(arguments%operand, arguments%threads, progress, outcome, error)
       call progress%clear()
       status = report_run(arguments, arguments%operand, outcome, error)
    end function merge_command

@@ -18,7 +18,7 @@ contains
       call say("  reedvalve modes DECK                   plate modes in vacuum and oil; k_a and k_s that match the film")
       call say("  reedvalve merge DIR                    write the results of a run whose cases are all finished")
       call say("")
-      call say("Options of run:")
+      call say("Options of run (merge takes --threads and --quiet):")
       call say("  -o DIR         folder for the results (default: the deck's name without .nml, here)")
       call say("  --threads N    threads to use (default: all processors)")
       call say("  --slice I/N    run slice I of N only; slices may run at once, on many hosts; then: reedvalve merge DIR")

@@ -29,7 +29,7 @@ module rv_file
       character(len=:), allocatable :: path
       character(len=:), allocatable :: buffer
       integer :: used = 0
-      integer(int32), public :: crc = 0          !! of the bytes since the file was opened or this was set to 0
+      integer(int32), public :: crc = 0          !! of the bytes put and got, bar texts, since it was opened or this was 0
    contains
       procedure :: open_old
       procedure :: create
@@ -129,6 +129,11 @@ contains
       type(error_type), allocatable, intent(out) :: error
       integer :: done, part
 
+      if (len(text) >= buffer_size) then
+         call self%flush_buffer(error)
+         if (.not. allocated(error)) call write_text(self, text, error)
+         return
+      end if
       if (.not. allocated(self%buffer)) allocate(character(len=buffer_size) :: self%buffer)
       done = 0
       do while (done < len(text))
@@ -263,16 +268,23 @@ contains
    end subroutine start
 
    subroutine flush_buffer(self, error)
-      class(file_type), target, intent(inout) :: self
+      class(file_type), intent(inout) :: self
       type(error_type), allocatable, intent(out) :: error
       integer :: used
 
       if (self%used == 0) return
       used = self%used
       self%used = 0
-      self%crc = crc32_of(c_loc(self%buffer), int(used, i8), self%crc)
-      call check(c_write(self%fd, c_loc(self%buffer), int(used, c_size_t)), "write", self%path, error)
+      call write_text(self, self%buffer(:used), error)
    end subroutine flush_buffer
+
+   subroutine write_text(self, text, error)
+      class(file_type), intent(in) :: self
+      character(len=*), target, intent(in) :: text
+      type(error_type), allocatable, intent(out) :: error
+
+      call check(c_write(self%fd, c_loc(text), len(text, c_size_t)), "write", self%path, error)
+   end subroutine write_text
 
    subroutine check(number, what, path, error)
       integer(c_int), intent(in) :: number

@@ -43,8 +43,8 @@ contains
       class(valve_lanes), allocatable, intent(out) :: lanes
       type(case_facts), intent(inout) :: facts(:)
       type(film_valve), allocatable :: valve(:)
-      type(film_lanes) :: film
-      type(table_lanes) :: table
+      type(film_lanes), allocatable :: film
+      type(table_lanes), allocatable :: table
       type(error_type), allocatable :: error
       logical :: fine(size(facts))
       integer :: i
@@ -64,11 +64,13 @@ contains
       valve = pack(valve, fine)
       if (size(valve) == 0) return
       if (nint(value(key_run_model, 1)) == model_film) then
+         allocate(film)
          call new_film_lanes(film, cache%reed, valve(1))
-         allocate(lanes, source=film)
+         call move_alloc(film, lanes)
       else
+         allocate(table)
          call new_table_lanes(table, cache%reed, cache%table, valve)
-         allocate(lanes, source=table)
+         call move_alloc(table, lanes)
       end if
    end subroutine new_film_cases
 

@@ -273,24 +273,25 @@ contains
    elemental real(wp) function from_si(key, si) result(value)
       integer, intent(in) :: key
       real(wp), intent(in) :: si
-      real(wp) :: candidate(6)
+      real(wp) :: plain, candidate(4)
       integer :: i
 
       if (keys(key)%factor < 1.0_wp) then
-         candidate(2) = si*anint(1.0_wp/keys(key)%factor)
+         plain = si*anint(1.0_wp/keys(key)%factor)
       else
-         candidate(2) = si/keys(key)%factor
+         plain = si/keys(key)%factor
       end if
-      candidate(1) = tidy(candidate(2))
-      candidate(3) = nearest(candidate(2), 1.0_wp)
-      candidate(4) = nearest(candidate(2), -1.0_wp)
-      candidate(5) = nearest(candidate(3), 1.0_wp)
-      candidate(6) = nearest(candidate(4), -1.0_wp)
+      value = tidy(plain)
+      if (abs(to_si(key, value) - si) <= 0.0_wp) return
+      value = plain
+      if (abs(to_si(key, value) - si) <= 0.0_wp) return
+      candidate(1:2) = nearest(plain, [1.0_wp, -1.0_wp])
+      candidate(3:4) = nearest(candidate(1:2), [1.0_wp, -1.0_wp])
       do i = 1, size(candidate)
+         if (abs(to_si(key, candidate(i)) - si) > 0.0_wp) cycle
          value = candidate(i)
-         if (abs(to_si(key, value) - si) <= 0.0_wp) return
+         return
       end do
-      value = candidate(2)
    end function from_si
 
    !> A value as a deck spells it, without quotes; empty where there is none. Texts and files stand elsewhere.

@@ -358,13 +358,3 @@ int64_t rv_posix_process_mark(void)
    for (const char *next = host; *next != '\0'; next++) hash = (hash ^ (unsigned char)*next) * 16777619u;
    return (int64_t)(((uint64_t)hash << 32) | (uint32_t)getpid());
 }
-
-/* %g with so many digits; a host program's locale may have a decimal comma, a CSV file may not. */
-void rv_posix_number(double x, int digits, char *buffer, size_t size)
-{
-   char *comma;
-
-   snprintf(buffer, size, "%.*g", digits, x);
-   comma = strchr(buffer, ',');
-   if (comma != NULL) *comma = '.';
-}

@@ -11,7 +11,7 @@ module rv_posix
    public :: make_folder, remove_folder, remove_file, rename_path, claim_name, sync_folder, list_folder
    public :: lock_file, unlock_file, lock_ours, lock_held, lock_none
    public :: catch_signals, signal_seen, keep_standard_files, is_terminal, terminal_width
-   public :: seconds, nap, utc_date, host_name, process_number, process_mark, number_text, get_reason, c_text
+   public :: seconds, nap, utc_date, host_name, process_number, process_mark, get_reason, c_text
 
    integer, parameter :: path_none = 0    !! nothing of that name
    integer, parameter :: path_file = 1
@@ -138,13 +138,6 @@ module rv_posix
       integer(c_int64_t) function c_process_mark() bind(C, name="rv_posix_process_mark")
          import :: c_int64_t
       end function c_process_mark
-      subroutine c_number(x, digits, buffer, size) bind(C, name="rv_posix_number")
-         import :: c_double, c_int, c_char, c_size_t
-         real(c_double), value :: x
-         integer(c_int), value :: digits
-         character(kind=c_char), intent(out) :: buffer(*)
-         integer(c_size_t), value :: size
-      end subroutine c_number
    end interface
 
 contains
@@ -361,17 +354,6 @@ contains
 
       mark = c_process_mark()
    end function process_mark
-
-   !> A number with so many significant digits, as %g of C; quicker than to_text, for millions of them.
-   function number_text(x, digits) result(text)
-      real(wp), intent(in) :: x
-      integer, intent(in) :: digits
-      character(len=:), allocatable :: text
-      character(kind=c_char) :: buffer(40)
-
-      call c_number(x, int(digits, c_int), buffer, size(buffer, kind=c_size_t))
-      call from_c(buffer, text)
-   end function number_text
 
    !> The system's own sentence for an error number.
    subroutine get_reason(number, text)

@@ -36,6 +36,5 @@ void rv_posix_date(char *buffer, size_t size);
 void rv_posix_host(char *buffer, size_t size);
 int rv_posix_process(void);
 int64_t rv_posix_process_mark(void);
-void rv_posix_number(double x, int digits, char *buffer, size_t size);
 
 #endif

@@ -1,13 +1,15 @@
 !> summary.csv: one row for each case, written block by block in constant memory (RFC 4180, UTF-8, line feeds).
+!>
+!> Making the text of a block's rows is the work: several threads may do that at a time, each for its own block.
 module rv_results_csv
    use, intrinsic :: ieee_arithmetic, only : ieee_is_nan
    use rv_kinds, only : wp, i8
    use rv_error, only : error_type
-   use rv_text, only : text_type, to_text
-   use rv_posix, only : number_text
+   use rv_text, only : text_type
+   use rv_row_text, only : row_text
    use rv_file, only : file_type
    use rv_block, only : column_type, measure_columns, n_measures
-   use rv_status, only : status_name
+   use rv_status, only : n_statuses, status_name
    use rv_manifest, only : input_type, kind_number, manifest_type
    use rv_parts, only : part_type
    implicit none
@@ -18,15 +20,22 @@ module rv_results_csv
    integer, parameter :: input_digits = 15     !! as many as a deck can give and get back
    integer, parameter :: measure_digits = 12   !! beyond the finest tolerance a deck can ask for
 
-   !> A summary being written. create, put for every part in the order of the blocks, close.
+   !> The fields that the values of one column stand for; of numbers there are none.
+   type :: field_list
+      type(text_type), allocatable :: field(:)
+   end type field_list
+
+   !> A summary being written. create, put_rows for the rows of every part in the order of the blocks, close.
    type :: csv_writer
       private
       type(file_type) :: file
-      type(input_type), allocatable :: input(:)
+      type(field_list), allocatable :: input(:)
+      type(field_list) :: status
       real(wp) :: to_unit(n_measures) = 1.0_wp
    contains
       procedure :: create
-      procedure :: put
+      procedure :: get_rows
+      procedure :: put_rows
       procedure :: close => close_file
    end type csv_writer
 
@@ -42,12 +51,12 @@ contains
       character(len=:), allocatable :: line
       integer :: i
 
-      self%input = manifest%input
+      call list_fields(self, manifest%input)
       measures = measure_columns()
       self%to_unit = measures%to_unit
       line = "case"
-      do i = 1, size(self%input)
-         line = line//","//self%input(i)%name
+      do i = 1, size(manifest%input)
+         line = line//","//manifest%input(i)%name
       end do
       do i = 1, n_measures
          line = line//","//trim(measures(i)%name)
@@ -56,29 +65,43 @@ contains
       if (.not. allocated(error)) call self%file%put_text(line//",status,message"//newline, error)
    end subroutine create
 
-   !> Write one block's cases.
-   subroutine put(self, part, error)
-      class(csv_writer), intent(inout) :: self
+   !> The rows of one block's cases.
+   pure subroutine get_rows(self, part, rows)
+      class(csv_writer), intent(in) :: self
       type(part_type), intent(in) :: part
-      type(error_type), allocatable, intent(out) :: error
-      character(len=:), allocatable :: line
+      type(row_text), intent(inout) :: rows
       integer :: j, i
 
+      call rows%clear()
       associate (result => part%result)
          do j = 1, size(result%status)
-            line = to_text(result%first + j - 1)
+            call rows%add_whole(result%first + j - 1)
             do i = 1, size(self%input)
-               line = line//","//input_field(self%input(i), part%input(i, j))
+               if (size(self%input(i)%field) == 0) then
+                  call add_number(rows, part%input(i, j), input_digits)
+               else
+                  call rows%add(self%input(i)%field(nint(part%input(i, j)))%s)
+               end if
             end do
             do i = 1, n_measures
-               line = line//","//number_field(result%measure(i, j)*self%to_unit(i), measure_digits)
+               call add_number(rows, result%measure(i, j)*self%to_unit(i), measure_digits)
             end do
-            line = line//","//status_name(result%status(j))//","//quoted(result%message(j)%s)//newline
-            call self%file%put_text(line, error)
-            if (allocated(error)) return
+            call rows%add(self%status%field(result%status(j) + 1)%s)
+            call rows%add(",")
+            if (len(result%message(j)%s) > 0) call rows%add(quoted(result%message(j)%s))
+            call rows%add(newline)
          end do
       end associate
-   end subroutine put
+   end subroutine get_rows
+
+   !> Write rows.
+   subroutine put_rows(self, rows, error)
+      class(csv_writer), intent(inout) :: self
+      type(row_text), intent(in) :: rows
+      type(error_type), allocatable, intent(out) :: error
+
+      if (rows%used > 0) call self%file%put_text(rows%bytes(:rows%used), error)
+   end subroutine put_rows
 
    !> Bring the file to the disk and close it; without `error`, just close it.
    subroutine close_file(self, error)
@@ -93,42 +116,62 @@ contains
       if (.not. allocated(error)) call self%file%close(error)
    end subroutine close_file
 
-   function input_field(input, value) result(field)
-      type(input_type), intent(in) :: input
-      real(wp), intent(in) :: value
-      character(len=:), allocatable :: field
+   !> What words and statuses look like in a row, with the comma before them.
+   subroutine list_fields(self, input)
+      class(csv_writer), intent(inout) :: self
+      type(input_type), intent(in) :: input(:)
+      integer :: i, j
 
-      if (input%kind == kind_number) then
-         field = number_field(value, input_digits)
-      else
-         field = quoted(input%word(nint(value))%s)
-      end if
-   end function input_field
+      if (allocated(self%input)) deallocate(self%input)
+      allocate(self%input(size(input)))
+      do i = 1, size(input)
+         allocate(self%input(i)%field(merge(0, size(input(i)%word), input(i)%kind == kind_number)))
+         do j = 1, size(self%input(i)%field)
+            self%input(i)%field(j)%s = ","//quoted(input(i)%word(j)%s)
+         end do
+      end do
+      if (allocated(self%status%field)) deallocate(self%status%field)
+      allocate(self%status%field(n_statuses))
+      do i = 1, n_statuses
+         self%status%field(i)%s = ","//status_name(i - 1)
+      end do
+   end subroutine list_fields
 
-   !> Empty for what did not happen.
-   function number_field(value, digits) result(field)
+   !> A comma and a number; nothing for what did not happen.
+   pure subroutine add_number(rows, value, digits)
+      type(row_text), intent(inout) :: rows
       real(wp), intent(in) :: value
       integer, intent(in) :: digits
-      character(len=:), allocatable :: field
 
-      field = ""
-      if (.not. ieee_is_nan(value)) field = number_text(value, digits)
-   end function number_field
+      call rows%add(",")
+      if (.not. ieee_is_nan(value)) call rows%add_number(value, digits)
+   end subroutine add_number
 
    !> `text` as a CSV field, in quotes where it needs them.
    pure function quoted(text) result(field)
       character(len=*), intent(in) :: text
-      character(len=:), allocatable :: field
-      integer :: i
+      character(len=quoted_length(text)) :: field
+      integer :: i, n
 
       field = text
-      if (scan(text, ',"'//newline//achar(13)) == 0) return
-      field = '"'
+      if (len(field) == len(text)) return
+      n = 1
       do i = 1, len(text)
-         field = field//text(i:i)
-         if (text(i:i) == '"') field = field//'"'
+         field(n + 1:n + 1) = text(i:i)
+         n = n + merge(2, 1, text(i:i) == '"')
+         if (text(i:i) == '"') field(n:n) = '"'
       end do
-      field = field//'"'
+      field(1:1) = '"'
+      field(len(field):) = '"'
    end function quoted
+
+   !> No field that needs no quotes is as long as with them.
+   pure integer function quoted_length(text) result(length)
+      character(len=*), intent(in) :: text
+      integer :: i
+
+      length = len(text)
+      if (scan(text, ',"'//newline//achar(13)) > 0) length = length + 2 + count([(text(i:i) == '"', i=1, len(text))])
+   end function quoted_length
 
 end module rv_results_csv

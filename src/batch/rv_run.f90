@@ -114,7 +114,7 @@ contains
       if (crew%leads) then
          call count_finished(folder, outcome)
          if (.not. (allocated(error) .or. outcome%stopped .or. options%is_slice())) call merge_parts(folder, &
-            & plan%manifest, monitor, outcome%tally, outcome%stopped, error)
+            & plan%manifest, outcome%threads, monitor, outcome%tally, outcome%stopped, error)
          outcome%seconds = seconds() - start
          call log_end(folder, outcome, error)
       end if
@@ -152,8 +152,9 @@ contains
    end subroutine set_counter
 
    !> Write the results of a run whose blocks are all finished, from nothing but its folder.
-   subroutine merge_folder(path, monitor, outcome, error)
+   subroutine merge_folder(path, threads, monitor, outcome, error)
       character(len=*), intent(in) :: path
+      integer, intent(in) :: threads              !! 0: as many as OpenMP offers
       class(monitor_type), intent(inout) :: monitor
       type(run_outcome), intent(out) :: outcome
       type(error_type), allocatable, intent(out) :: error
@@ -175,8 +176,11 @@ contains
       end if
       if (.not. allocated(error)) then
          outcome%blocks = manifest%blocks
+         outcome%threads = threads
+         if (threads == 0) outcome%threads = omp_get_max_threads()
          call check_all_there(folder, manifest%blocks, error)
-         if (.not. allocated(error)) call merge_parts(folder, manifest, monitor, outcome%tally, outcome%stopped, error)
+         if (.not. allocated(error)) call merge_parts(folder, manifest, outcome%threads, monitor, &
+            & outcome%tally, outcome%stopped, error)
          outcome%seconds = seconds() - start
          call log_end(folder, outcome, error)
       end if

@@ -236,51 +236,85 @@ contains
 
    !> int shape function dA over the part x < limit of the half land, for every node [m2].
    !>
-   !> The line x = limit cuts the elements: along each ray the integral is split where it crosses.
+   !> The line x = limit cuts the elements: along each ray the integral is split where it crosses, and the rays of an
+   !> element are split where it enters or leaves the element, so that every integrand is smooth.
    function land_weights(self, form, limit) result(weight)
       type(film_mesh), intent(in) :: self
       type(planform_type), intent(in) :: form
       real(wp), intent(in) :: limit   !! [m]
       real(wp) :: weight(self%nodes)
-      integer, parameter :: rays = 24, depth = 4
-      real(wp) :: g(rays), w(rays), t, rho, slope, lo, hi, r, crossing, eta, cut(2)
-      real(wp) :: x(depth), wx(depth), around_value(3), across_value(3), unused(3), shape(nodes_per_element), area, t0, t1
-      integer :: e, j, k, m
+      integer, parameter :: rays = 12, depth = 4   !! along a ray the rule is exact
+      real(wp), parameter :: sliver = 1.0e-14_wp   !! parts of an element that are left out [rad]
+      real(wp) :: ray(rays), ray_weight(rays), point(depth), point_weight(depth), part(0:3)
+      integer :: e, j, k
 
       weight = 0.0_wp
-      call gauss_legendre(0.0_wp, 1.0_wp, g, w)
+      call gauss_legendre(0.0_wp, 1.0_wp, ray, ray_weight)
+      call gauss_legendre(0.0_wp, 1.0_wp, point, point_weight)
       do e = 1, self%elements
-         t0 = self%corner(1, e)
-         t1 = self%corner(2, e)
-         do j = 1, rays
-            t = t0 + (t1 - t0)*g(j)
-            call outer_edge(form, nint(self%corner(5, e)), t, rho, slope)
-            call quadratic(g(j), around_value, unused)
-            lo = self%corner(3, e)
-            hi = self%corner(4, e)
-            crossing = huge(1.0_wp)
-            if (abs(cos(t)) > 0.0_wp) crossing = (limit - form%centre)/cos(t)
-            crossing = (crossing - form%hole_radius)/(rho - form%hole_radius)
-            if (cos(t) < 0.0_wp) then   ! x falls along the ray: inside beyond the crossing
-               cut = [min(hi, max(lo, crossing)), hi]
-            else
-               cut = [lo, min(hi, max(lo, crossing))]
-            end if
-            if (.not. cut(2) > cut(1)) cycle
-            call gauss_legendre(cut(1), cut(2), x, wx)
-            do m = 1, depth
-               eta = x(m)
-               r = form%hole_radius + eta*(rho - form%hole_radius)
-               call quadratic((eta - lo)/(hi - lo), across_value, unused)
-               shape = outer_product(around_value, across_value)
-               area = w(j)*(t1 - t0)*wx(m)*r*(rho - form%hole_radius)
-               do k = 1, nodes_per_element
-                  weight(self%node(k, e)) = weight(self%node(k, e)) + area*shape(k)
-               end do
+         part = [self%corner(1, e), crossing_of_line(self, form, e, 3, limit), crossing_of_line(self, form, e, 4, limit), &
+            & self%corner(2, e)]
+         part(1:2) = [minval(part(1:2)), maxval(part(1:2))]
+         do k = 1, 3
+            if (.not. part(k) - part(k - 1) > sliver) cycle
+            do j = 1, rays
+               call add_ray(part(k - 1) + (part(k) - part(k - 1))*ray(j), (part(k) - part(k - 1))*ray_weight(j))
             end do
          end do
       end do
+
+   contains
+
+      !> What a ray of element e has of the part x < limit.
+      subroutine add_ray(theta, around)
+         real(wp), intent(in) :: theta    !! [rad]
+         real(wp), intent(in) :: around   !! the ray's weight [rad]
+         real(wp) :: rho, slope, crossing, cut(2), eta, r
+         real(wp), dimension(3) :: around_value, across_value, unused
+         integer :: m
+
+         call outer_edge(form, nint(self%corner(5, e)), theta, rho, slope)
+         associate (t0 => self%corner(1, e), t1 => self%corner(2, e), lo => self%corner(3, e), hi => self%corner(4, e))
+            call quadratic((theta - t0)/(t1 - t0), around_value, unused)
+            crossing = huge(1.0_wp)
+            if (abs(cos(theta)) > 0.0_wp) crossing = (limit - form%centre)/cos(theta)
+            crossing = min(hi, max(lo, (crossing - form%hole_radius)/(rho - form%hole_radius)))
+            cut = [lo, crossing]
+            if (cos(theta) < 0.0_wp) cut = [crossing, hi]   ! x falls along the ray: inside beyond the crossing
+            if (.not. cut(2) > cut(1)) return
+            do m = 1, depth
+               eta = cut(1) + (cut(2) - cut(1))*point(m)
+               r = form%hole_radius + eta*(rho - form%hole_radius)
+               call quadratic((eta - lo)/(hi - lo), across_value, unused)
+               weight(self%node(:, e)) = weight(self%node(:, e)) + around*(cut(2) - cut(1))*point_weight(m) &
+                  & *r*(rho - form%hole_radius)*outer_product(around_value, across_value)
+            end do
+         end associate
+      end subroutine add_ray
+
    end function land_weights
+
+   !> Where an element's inner (side = 3) or outer (4) mesh line crosses x = limit, or the nearer end of it [rad].
+   pure real(wp) function crossing_of_line(self, form, e, side, limit) result(theta)
+      type(film_mesh), intent(in) :: self
+      type(planform_type), intent(in) :: form
+      integer, intent(in) :: e, side
+      real(wp), intent(in) :: limit
+      real(wp) :: lo, hi, rho, slope
+      integer :: i
+
+      lo = self%corner(1, e)
+      hi = self%corner(2, e)
+      do i = 1, digits(lo)   ! x falls along the line from the tip to the clamp
+         theta = 0.5_wp*(lo + hi)
+         call outer_edge(form, nint(self%corner(5, e)), theta, rho, slope)
+         if (form%centre + (form%hole_radius + self%corner(side, e)*(rho - form%hole_radius))*cos(theta) > limit) then
+            lo = theta
+         else
+            hi = theta
+         end if
+      end do
+   end function crossing_of_line
 
    !> The three quadratic shape functions on 0..1 and their derivatives.
    pure subroutine quadratic(s, value, slope)

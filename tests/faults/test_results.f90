@@ -14,6 +14,7 @@ program test_results
    use rv_results_csv, only : csv_writer
    use rv_results_netcdf, only : expected_size, netcdf_writer
    use rv_results_origin, only : read_origin
+   use rv_row_text, only : row_text
    use rv_text, only : to_text
    implicit none
    integer, parameter :: cases = 5, times = 3
@@ -36,6 +37,7 @@ contains
 
    subroutine test_csv()
       type(csv_writer) :: writer
+      type(row_text) :: rows
       type(error_type), allocatable :: error
       character(len=:), allocatable :: text, expected
       character(len=1), parameter :: nl = new_line("a")
@@ -44,8 +46,11 @@ contains
 
       call writer%create("test.csv", manifest, error)
       call suite%no_error("create test.csv", error)
-      call writer%put(part(1), error)
-      call writer%put(part(2), error)
+      do i = 1, size(part)
+         call writer%get_rows(part(i), rows)
+         call writer%put_rows(rows, error)
+         call suite%no_error("write rows", error)
+      end do
       call writer%close(error)
       call suite%no_error("close it", error)
       call read_whole_file("test.csv", text, found, error)

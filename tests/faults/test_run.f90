@@ -132,11 +132,11 @@ contains
       call suite%true("stopped in its merge", outcome%stopped .and. .not. allocated(error))
       call path_kind("run_merge/results.nc.new", kind, error)
       call suite%equal("nothing half-written is left", kind, path_none)
-      call merge_folder("run_merge", other, outcome, error)
+      call merge_folder("run_merge", 2, other, outcome, error)
       call suite%no_error("merge", error)
       call suite%equal("cases", int(outcome%tally%cases), 16)
       call same_bytes("run_merge")
-      call merge_folder("run_merge", other, outcome, error)
+      call merge_folder("run_merge", 2, other, outcome, error)
       call suite%fails("merge again", error, "nothing to merge")
    end subroutine test_stopped_merge
 

@@ -93,11 +93,12 @@ contains
       real(wp), intent(in) :: trace_time(:)
       type(lane_outcome), intent(out) :: outcome
       class(pressure_history), intent(in), optional :: history
-      type(film_lanes) :: film
+      type(film_lanes), allocatable :: film
       class(valve_lanes), allocatable :: lanes
 
+      allocate(film)
       call new_film_lanes(film, reed, valve)
-      allocate(lanes, source=film)
+      call move_alloc(film, lanes)
       if (present(history)) then
          call run_lanes(lanes, history, settings, trace_time, outcome)
       else
@@ -113,14 +114,15 @@ contains
       real(wp), intent(in) :: trace_time(:)
       type(lane_outcome), intent(out) :: outcome
       type(film_table) :: table
-      type(table_lanes) :: tabled
+      type(table_lanes), allocatable :: tabled
       class(valve_lanes), allocatable :: lanes
       type(error_type), allocatable :: error
 
       call new_film_table(table, reed, valve(1)%gap, error)
       if (allocated(error)) error stop "the paper's film table is refused"
+      allocate(tabled)
       call new_table_lanes(tabled, reed, table, valve)
-      allocate(lanes, source=tabled)
+      call move_alloc(tabled, lanes)
       call run_lanes(lanes, wave_40ms(), settings, trace_time, outcome)
    end subroutine run_table
 

@@ -21,7 +21,7 @@ program test_film_balance
 
    call volume()
    call energy(1.0e-6_wp, 1.0e-6_wp)
-   call energy(1.0e-7_wp, 1.0e-8_wp)
+   call energy(1.0e-7_wp, 2.0e-8_wp)
    call pulled_shut()
    call hard_cases()
    call suite%finish()
@@ -34,14 +34,15 @@ contains
       real(wp), intent(in) :: rtol, time(:)
       type(lane_outcome), intent(out) :: outcome
       type(balance_type), target, intent(inout) :: balance
-      type(watched_lanes) :: watched
+      type(watched_lanes), allocatable :: watched
       class(valve_lanes), allocatable :: lanes
       type(lane_settings) :: settings
 
       settings%t_end = until
       settings%rtol = rtol
+      allocate(watched)
       call new_watched_lanes(watched, reed, valve, balance)
-      allocate(lanes, source=watched)
+      call move_alloc(watched, lanes)
       call run_lanes(lanes, wave_40ms(), settings, time, outcome)
    end subroutine run_watched
 

@@ -72,6 +72,7 @@ contains
       type(lane_outcome) :: outcome
       type(lane_settings) :: settings
       type(film_reed) :: reed
+      type(film_valve) :: valve(1)
       real(wp) :: time(2, 3), order(2)
       integer :: k
 
@@ -79,7 +80,8 @@ contains
       settings%rtol = 1.0e-9_wp
       do k = 1, 3
          reed = paper_reed(1, finer=2**(k - 1))
-         call run_table(reed, [paper_case(reed, gap, inlet)], settings, no_times, outcome)
+         valve(1) = paper_case(reed, gap, inlet)
+         call run_table(reed, valve, settings, no_times, outcome)
          time(:, k) = outcome%measure([fall, closing], 1)
       end do
       order = log((time(:, 2) - time(:, 1))/(time(:, 3) - time(:, 2)))/log(2.0_wp)

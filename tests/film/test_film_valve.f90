@@ -155,8 +155,8 @@ contains
       call suite%close("static mass [kg]", valve%static_mass, areal_mass*reed%plate%static_mass, 1.0e-14_wp, 0.0_wp)
       call suite%close("hole area [mm2]", reed%hole_area/mm**2, 4.0_wp*pi, 1.0e-14_wp, 0.0_wp)
       call suite%close("int_hole phi_1 [mm2]", reed%hole(1)/mm**2, 5.9277_wp, 2.0e-3_wp, 0.0_wp)
-      call suite%close("land [mm2]", sum(reed%land_weight)/mm**2, 27.0_wp + 4.5_wp*pi - 4.0_wp*pi, 1.0e-6_wp, 0.0_wp)
-      call suite%close("part A [mm2]", sum(reed%root_weight)/mm**2, 15.0_wp, 2.0e-5_wp, 0.0_wp)
+      call suite%close("land [mm2]", sum(reed%land_weight)/mm**2, 27.0_wp + 4.5_wp*pi - 4.0_wp*pi, 1.0e-12_wp, 0.0_wp)
+      call suite%close("part A [mm2]", sum(reed%root_weight)/mm**2, 15.0_wp, 1.0e-12_wp, 0.0_wp)
    end subroutine planform_data
 
    subroutine refusals()

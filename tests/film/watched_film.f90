@@ -19,7 +19,7 @@ module watched_film
    end type balance_type
 
    type, extends(film_lanes) :: watched_lanes
-      type(film_reed) :: planform
+      type(film_reed), allocatable :: planform
       type(balance_type), pointer :: balance => null()
    contains
       procedure :: film_force
