@@ -42,12 +42,14 @@ class Extent:
     cases: int = 4096  # of the sweep, for compiled peers
     ladder: tuple[float, ...] = LADDER  # tolerances to choose from
     scipy: tuple[str, ...] = ("LSODA", "Radau", "DOP853")
+    python_peers: bool = True  # that compile when they start
 
 
 QUICK = Extent(rounds=2, seconds=0.2, sample=4, rtols=(1e-4, 1e-6, 1e-8), sides=(32, 100), widths=(1, 16, 256),
-               ladder=LADDER[::2])  # fmt: skip
+               ladder=LADDER[6:36:2], scipy=("LSODA",), python_peers=False)  # fmt: skip
 SMOKE = Extent(rounds=1, seconds=0.0, sample=2, rtols=(1e-5, 1e-6), sides=(8,), widths=(64,), cases=64,
-               ladder=(1e-4, 1e-5, 3e-6, 1e-6, 3e-7), scipy=("LSODA",))  # fmt: skip
+               ladder=(1e-4, 1e-5, 3e-6, 1e-6, 3e-7), scipy=("LSODA",),
+               python_peers=False)  # fmt: skip
 
 
 def say(text: str) -> None:
@@ -86,7 +88,7 @@ def few(bench: Bench, count: int) -> np.ndarray:
 def equal_error(bench: Bench, extent: Extent) -> tuple[Table, list[Contender]]:
     """The main table."""
     rows = [bench.lanes(method, threads) for method in bench.methods for threads in (1, 2)]
-    rows += bench.all_peers(extent.scipy, extent.sample)
+    rows += bench.all_peers(extent.scipy, extent.sample, extent.python_peers)
     set_tolerances(bench, rows, extent.ladder)
     for i in range(extent.rounds):
         say(f"round {i + 1} of {extent.rounds}")
@@ -118,9 +120,8 @@ def find(rows: list[Contender], start: str, cores: int = 1) -> Contender | None:
 def work_precision(bench: Bench, extent: Extent) -> tuple[Table, dict[str, list[tuple[float, float]]]]:
     """Error and rate against the tolerance, one core; CVODE and SciPy on samples."""
     rows = [bench.lanes(method, 1) for method in bench.methods]
-    for row in bench.all_peers(("LSODA",), extent.sample // 2):
-        if row.name in (bench.odeint_name, bench.cvode_name, "SciPy LSODA"):
-            rows.append(bench.cvode(few(bench, 256)) if row.name == bench.cvode_name else row)
+    for row in bench.all_peers(("LSODA",), extent.sample // 2, python_peers=False):
+        rows.append(bench.cvode(few(bench, 256)) if row.name == bench.cvode_name else row)
     header = [""] + [f"{rtol:.0e}" for rtol in extent.rtols]
     table = Table("work_precision", "Work and precision: cases/s (largest error) against rtol, one core", header)
     lines: dict[str, list[tuple[float, float]]] = {}

@@ -152,18 +152,11 @@ class Bench:
         """CVODE on these cases."""
         return self.peer(self.cvode_name, [self.peers / "cvode"], cases)
 
-    def all_peers(self, scipy: tuple[str, ...], few: int) -> list[Contender]:
+    def all_peers(self, scipy: tuple[str, ...], few: int, python_peers: bool) -> list[Contender]:
         """Those that were set up; SciPy on `few` of the cases. What is left out is told."""
         sample = spread_sample(min(few, len(self.some)))
-        python = self.peers / "venv" / "bin" / "python"
-        one_core = ["taskset", "--cpu-list", str(max(os.sched_getaffinity(0)))]  # XLA takes all there are
         rows = []
-        for name, needs, words in (
-            (self.odeint_name, self.peers / "odeint", [self.peers / "odeint"]),
-            (self.cvode_name, self.peers / "cvode", [self.peers / "cvode"]),
-            ("numbalsoda LSODA", python.parents[1] / "ready", [python, PEERS / "numbalsoda_peer.py"]),
-            ("diffrax Dopri5, vmap", python.parents[1] / "ready", [*one_core, python, PEERS / "diffrax_peer.py"]),
-        ):
+        for name, needs, words in self.wanted_peers()[: 4 if python_peers else 2]:
             if needs.is_file():
                 rows.append(self.peer(name, words, self.some))
                 rows[-1].slow_start = name.startswith("diffrax")
@@ -172,6 +165,18 @@ class Bench:
         for method in scipy:
             rows.append(self.peer(f"SciPy {method}", [sys.executable, PEERS / "scipy_peer.py", method], sample))
         return rows
+
+    def wanted_peers(self) -> list[tuple[str, Path, list[object]]]:
+        """Name, the file without which there is none, words of its command; those in Python last."""
+        odeint, cvode = self.peers / "odeint", self.peers / "cvode"
+        python, ready = self.peers / "venv" / "bin" / "python", self.peers / "venv" / "ready"
+        one_core = ["taskset", "--cpu-list", str(max(os.sched_getaffinity(0)))]  # XLA takes all there are
+        return [
+            (self.odeint_name, odeint, [odeint]),
+            (self.cvode_name, cvode, [cvode]),
+            ("numbalsoda LSODA", ready, [python, PEERS / "numbalsoda_peer.py"]),
+            ("diffrax Dopri5, vmap", ready, [*one_core, python, PEERS / "diffrax_peer.py"]),
+        ]
 
 
 def run(words: list[object]) -> str:
