@@ -5,13 +5,13 @@ module rv_valve_case
    use rv_error, only : error_type, fail, rv_bad_input
    use rv_case_facts, only : case_facts, tell, film_is_closed, fluid_of, load_of, amplitudes_of
    use rv_film_case, only : planform_cache, new_film_cases
-   use rv_hydrodynamic_load, only : hydrodynamic_load, new_hydrodynamic_load, fluid_type
+   use rv_hydrodynamic_load, only : hydrodynamic_load, new_hydrodynamic_load
    use rv_keys, only : n_keys, model_squeeze, model_film, model_film_table, kind_trace, start_equilibrium, &
       & key_run_model, key_run_start, key_run_t_end_ms, key_reed_a_mm, key_reed_b_mm, key_reed_hole_diameter_mm, &
       & key_reed_width_mm, key_reed_thickness_mm, key_reed_density_kg_m3, key_reed_youngs_modulus_gpa, key_reed_k_a, &
       & key_reed_action_area_mm2, key_film_gap_mm, key_film_k_s, key_film_acts, key_pressure_kind, &
       & key_pressure_period_ms, key_pressure_transition_ms, key_pressure_file, key_pressure_event_ms, &
-      & key_solver_rtol, key_solver_max_steps
+      & key_fluid_density_kg_m3, key_fluid_viscosity_pa_s, key_solver_rtol, key_solver_max_steps
    use rv_lanes, only : lane_settings
    use rv_lumped, only : lumped_lanes, lumped_valve, new_lumped_lanes, squeeze_coefficient
    use rv_pressure, only : pressure_history, square_wave, new_square_wave, pressure_trace, new_pressure_trace
@@ -25,6 +25,20 @@ module rv_valve_case
 
    real(wp), parameter :: most_periods = 1.0e5_wp  !! periods in one run; each has four stops
    integer, parameter :: acts_both = 2             !! film.acts = 'both'
+
+   !> What the reed's stiffness, mass and load depend on, besides the choice of the load.
+   integer, parameter :: reed_keys(10) = [key_reed_a_mm, key_reed_hole_diameter_mm, key_reed_b_mm, key_reed_width_mm, &
+      & key_reed_thickness_mm, key_reed_density_kg_m3, key_reed_youngs_modulus_gpa, key_reed_k_a, &
+      & key_fluid_density_kg_m3, key_fluid_viscosity_pa_s]
+
+   !> A reed in its liquid, or why there is none.
+   type :: immersed_reed
+      real(wp) :: value(size(reed_keys)) = 0.0_wp
+      integer :: load_choice = 0
+      type(reed_type) :: reed
+      type(hydrodynamic_load) :: load
+      type(error_type), allocatable :: error
+   end type immersed_reed
 
 contains
 
@@ -49,11 +63,13 @@ contains
       type(case_facts), intent(inout) :: facts(:)
       type(lumped_valve) :: valve(size(facts))
       type(lumped_lanes), allocatable :: lumped
+      type(immersed_reed) :: reed
       logical :: fine(size(facts))
       integer :: i
 
       do i = 1, size(facts)
-         call new_lumped_case(value(:, i), valve(i), facts(i))
+         if (.not. is_immersed(reed, value(:, i))) call immerse(reed, value(:, i))
+         call new_lumped_case(value(:, i), reed, valve(i), facts(i))
          fine(i) = .not. (allocated(facts(i)%error) .or. facts(i)%is_closed)
       end do
       if (.not. any(fine)) return
@@ -62,35 +78,53 @@ contains
       call move_alloc(lumped, lanes)
    end subroutine new_lumped_cases
 
-   subroutine new_lumped_case(value, valve, facts)
+   !> Whether this is the reed of the case, in its liquid. Cases of a sweep mostly share it.
+   pure logical function is_immersed(self, value)
+      type(immersed_reed), intent(in) :: self
       real(wp), intent(in) :: value(n_keys)
+
+      is_immersed = self%load_choice == load_of(value)
+      if (is_immersed) is_immersed = all(abs(value(reed_keys) - self%value) <= 0.0_wp)
+   end function is_immersed
+
+   subroutine immerse(self, value)
+      type(immersed_reed), intent(out) :: self
+      real(wp), intent(in) :: value(n_keys)
+
+      self%value = value(reed_keys)
+      self%load_choice = load_of(value)
+      call new_reed(self%reed, value(key_reed_a_mm), value(key_reed_hole_diameter_mm), value(key_reed_b_mm), &
+         & value(key_reed_width_mm), value(key_reed_thickness_mm), value(key_reed_density_kg_m3), &
+         & value(key_reed_youngs_modulus_gpa), value(key_reed_k_a), self%error)
+      if (.not. allocated(self%error)) call new_hydrodynamic_load(self%load, self%load_choice, self%reed, &
+         & fluid_of(value), self%error)
+   end subroutine immerse
+
+   subroutine new_lumped_case(value, immersed, valve, facts)
+      real(wp), intent(in) :: value(n_keys)
+      type(immersed_reed), intent(in) :: immersed
       type(lumped_valve), intent(out) :: valve
       type(case_facts), intent(inout) :: facts
-      type(reed_type) :: reed
-      type(fluid_type) :: fluid
-      type(hydrodynamic_load) :: load
 
-      call new_reed(reed, value(key_reed_a_mm), value(key_reed_hole_diameter_mm), value(key_reed_b_mm), &
-         & value(key_reed_width_mm), value(key_reed_thickness_mm), value(key_reed_density_kg_m3), &
-         & value(key_reed_youngs_modulus_gpa), value(key_reed_k_a), facts%error)
-      if (allocated(facts%error)) return
-      fluid = fluid_of(value)
-      call new_hydrodynamic_load(load, load_of(value), reed, fluid, facts%error)
-      if (allocated(facts%error)) return
-
-      valve%mass = reed%mass + load%added_mass
-      valve%damping = load%added_damping
-      valve%stiffness = reed%stiffness
-      valve%area = value(key_reed_action_area_mm2)
-      if (ieee_is_nan(valve%area)) valve%area = 0.25_wp*pi*value(key_reed_hole_diameter_mm)**2
-      valve%gap = value(key_film_gap_mm)
-      facts%is_closed = film_is_closed(value)
-      if (nint(value(key_run_model)) == model_squeeze) then
-         valve%squeeze = squeeze_coefficient(value(key_film_k_s), fluid%viscosity, reed%length, reed%width)
-         valve%both_ways = nint(value(key_film_acts)) == acts_both
+      if (allocated(immersed%error)) then
+         facts%error = immersed%error
+         return
       end if
-      call amplitudes_of(value, valve%inlet, valve%outlet)
-      call tell(facts, reed%stiffness, reed%mass, load%added_mass, load%added_damping, load%reynolds, load%in_range)
+      associate (reed => immersed%reed, load => immersed%load)
+         valve%mass = reed%mass + load%added_mass
+         valve%damping = load%added_damping
+         valve%stiffness = reed%stiffness
+         valve%area = value(key_reed_action_area_mm2)
+         if (ieee_is_nan(valve%area)) valve%area = 0.25_wp*pi*value(key_reed_hole_diameter_mm)**2
+         valve%gap = value(key_film_gap_mm)
+         facts%is_closed = film_is_closed(value)
+         if (nint(value(key_run_model)) == model_squeeze) then
+            valve%squeeze = squeeze_coefficient(value(key_film_k_s), value(key_fluid_viscosity_pa_s), reed%length, reed%width)
+            valve%both_ways = nint(value(key_film_acts)) == acts_both
+         end if
+         call amplitudes_of(value, valve%inlet, valve%outlet)
+         call tell(facts, reed%stiffness, reed%mass, load%added_mass, load%added_damping, load%reynolds, load%in_range)
+      end associate
    end subroutine new_lumped_case
 
    !> The pressure history of one case.

@@ -120,12 +120,13 @@ contains
       a = force(:, 1)
    end subroutine find_acceleration
 
-   subroutine linearise(self, inlet, outlet, q, v, a, a_q, a_v, closed)
+   subroutine linearise(self, first, last, inlet, outlet, q, v, a, a_q, a_v, closed)
       class(film_lanes), intent(inout) :: self
+      integer, intent(in) :: first, last
       real(wp), intent(in) :: inlet, outlet
-      real(wp), intent(in) :: q(self%width, self%dofs), v(self%width, self%dofs)
-      real(wp), intent(out) :: a(self%width, self%dofs)
-      real(wp), intent(out) :: a_q(self%width, self%dofs, self%dofs), a_v(self%width, self%dofs, self%dofs)
+      real(wp), intent(in) :: q(first:last, self%dofs), v(first:last, self%dofs)
+      real(wp), intent(out) :: a(first:last, self%dofs)
+      real(wp), intent(out) :: a_q(first:last, self%dofs, self%dofs), a_v(first:last, self%dofs, self%dofs)
       integer, intent(out) :: closed
       type(film_state) :: state
       real(wp) :: slope(self%dofs, 2*self%dofs)

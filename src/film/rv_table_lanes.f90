@@ -80,22 +80,23 @@ contains
          a(i, 1) = ((self%inlet(i)*inlet - self%outlet(i)*outlet)*(self%hole(i) + area(i)) - self%stiffness(i)*q(i, 1) &
             & - (self%damping(i) + self%film_scale(i)/y(i)**3)*v(i, 1))*self%inverse_mass(i)
       end do
-      closed = first_closed(self, q(:, 1))
+      closed = first_closed(self%table%lowest, 1.0_wp + q(:, 1)*self%inverse_gap)
    end subroutine acceleration
 
-   subroutine linearise(self, inlet, outlet, q, v, a, a_q, a_v, closed)
+   subroutine linearise(self, first, last, inlet, outlet, q, v, a, a_q, a_v, closed)
       class(table_lanes), intent(inout) :: self
+      integer, intent(in) :: first, last
       real(wp), intent(in) :: inlet, outlet
-      real(wp), intent(in) :: q(self%width, self%dofs), v(self%width, self%dofs)
-      real(wp), intent(out) :: a(self%width, self%dofs)
-      real(wp), intent(out) :: a_q(self%width, self%dofs, self%dofs), a_v(self%width, self%dofs, self%dofs)
+      real(wp), intent(in) :: q(first:last, self%dofs), v(first:last, self%dofs)
+      real(wp), intent(out) :: a(first:last, self%dofs)
+      real(wp), intent(out) :: a_q(first:last, self%dofs, self%dofs), a_v(first:last, self%dofs, self%dofs)
       integer, intent(out) :: closed
-      real(wp), dimension(self%width) :: y, y_slope, area, area_slope
+      real(wp), dimension(first:last) :: y, y_slope, area, area_slope
       real(wp) :: drop, film
       integer :: i
 
-      call self%table%look_up(1.0_wp + q(:, 1)*self%inverse_gap, y, y_slope, area, area_slope)
-      do i = 1, self%width
+      call self%table%look_up(1.0_wp + q(:, 1)*self%inverse_gap(first:last), y, y_slope, area, area_slope)
+      do i = first, last
          drop = self%inlet(i)*inlet - self%outlet(i)*outlet
          film = self%film_scale(i)/y(i)**3
          a(i, 1) = (drop*(self%hole(i) + area(i)) - self%stiffness(i)*q(i, 1) - (self%damping(i) + film)*v(i, 1)) &
@@ -104,7 +105,8 @@ contains
             & - self%stiffness(i))*self%inverse_mass(i)
          a_v(i, 1, 1) = -(self%damping(i) + film)*self%inverse_mass(i)
       end do
-      closed = first_closed(self, q(:, 1))
+      closed = first_closed(self%table%lowest, 1.0_wp + q(:, 1)*self%inverse_gap(first:last))
+      if (closed > 0) closed = first - 1 + closed
    end subroutine linearise
 
    !> -C_s u' and its rate. A reed that closes leaves no place of the film below the pressures beyond its edges.
@@ -207,14 +209,14 @@ contains
    end subroutine silence
 
    !> First lane whose tip is below the table.
-   pure integer function first_closed(self, u) result(lane)
-      type(table_lanes), intent(in) :: self
-      real(wp), intent(in) :: u(:)
+   pure integer function first_closed(lowest, x) result(lane)
+      real(wp), intent(in) :: lowest   !! of the table
+      real(wp), intent(in) :: x(:)     !! film under the tip over the gap
 
       lane = 0
-      if (all(1.0_wp + u*self%inverse_gap > self%table%lowest)) return
-      do lane = 1, self%width
-         if (.not. 1.0_wp + u(lane)*self%inverse_gap(lane) > self%table%lowest) return
+      if (all(x > lowest)) return
+      do lane = 1, size(x)
+         if (.not. x(lane) > lowest) return
       end do
    end function first_closed
 

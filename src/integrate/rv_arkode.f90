@@ -11,12 +11,14 @@ module rv_arkode
    integer(c_int), parameter :: rv_at_stop = 1   !! one step done, the stop time is reached
 
    interface
-      integer(c_int) function rv_arkode_new(lanes, states, t0, y0, table, rhs, stage, weight, data, self) bind(C)
+      integer(c_int) function rv_arkode_new(lanes, states, t0, y0, table, first_step, rhs, stage, weight, data, self) &
+         & bind(C)
          import :: c_char, c_double, c_funptr, c_int, c_ptr
          integer(c_int), value :: lanes, states
          real(c_double), value :: t0
          real(c_double), intent(in) :: y0(*)
          character(kind=c_char), intent(in) :: table(*)
+         real(c_double), value :: first_step
          type(c_funptr), value :: rhs, stage, weight
          type(c_ptr), value :: data
          type(c_ptr), intent(out) :: self

@@ -5,16 +5,16 @@ module rv_dense
    use rv_kinds, only : wp
    implicit none
    private
-   public :: quintic, value_at, derivative, first_root
+   public :: quintic, value_at, motion_at, derivative, first_root, inverse_guess
 
 contains
 
    !> Coefficients 0 to 5 of u(s).
-   pure function quintic(h, u0, v0, a0, u1, v1, a1) result(c)
+   pure subroutine quintic(h, u0, v0, a0, u1, v1, a1, c)
       real(wp), intent(in) :: h                   !! step [s]
       real(wp), intent(in) :: u0, v0, a0          !! u [m], u' [m s-1], u'' [m s-2] at s = 0
       real(wp), intent(in) :: u1, v1, a1          !! the same at s = 1
-      real(wp) :: c(0:5)                          !! [m]
+      real(wp), intent(out) :: c(0:5)             !! [m]
       real(wp) :: rise, dv, da
 
       rise = u1 - u0 - h*(v0 + 0.5_wp*h*a0)
@@ -26,7 +26,7 @@ contains
       c(3) = 10.0_wp*rise - 4.0_wp*dv + 0.5_wp*da
       c(4) = -15.0_wp*rise + 7.0_wp*dv - da
       c(5) = 6.0_wp*rise - 3.0_wp*dv + 0.5_wp*da
-   end function quintic
+   end subroutine quintic
 
    !> Value of a polynomial.
    pure real(wp) function value_at(c, s) result(value)
@@ -40,6 +40,17 @@ contains
       end do
    end function value_at
 
+   !> Value, first and second derivative of a quintic with respect to s.
+   pure subroutine motion_at(c, s, u, du, ddu)
+      real(wp), intent(in) :: c(0:5)
+      real(wp), intent(in) :: s
+      real(wp), intent(out) :: u, du, ddu
+
+      u = c(0) + s*(c(1) + s*(c(2) + s*(c(3) + s*(c(4) + s*c(5)))))
+      du = c(1) + s*(2.0_wp*c(2) + s*(3.0_wp*c(3) + s*(4.0_wp*c(4) + s*5.0_wp*c(5))))
+      ddu = 2.0_wp*c(2) + s*(6.0_wp*c(3) + s*(12.0_wp*c(4) + s*20.0_wp*c(5)))
+   end subroutine motion_at
+
    !> Coefficients of the derivative with respect to s.
    pure function derivative(c) result(d)
       real(wp), intent(in) :: c(0:)
@@ -51,23 +62,33 @@ contains
       end do
    end function derivative
 
-   !> The root of a polynomial that changes sign between lo and hi, to rounding: Newton held in by bisection.
-   pure real(wp) function first_root(c, lo, hi) result(s)
-      real(wp), intent(in) :: c(0:)
+   !> The root of a polynomial that changes sign between lo and hi, to rounding: Newton, held in by bisection, from a
+   !> guess if there is one.
+   pure real(wp) function first_root(c, lo, hi, guess) result(s)
+      real(wp), intent(in) :: c(0:)   !! of degree five at most
       real(wp), intent(in) :: lo, hi
-      real(wp) :: left, right, f, slope, f_left, newton
+      real(wp), intent(in), optional :: guess
+      real(wp), parameter :: near = 1.0e-9_wp   ! Newton squares it
+      real(wp) :: b(0:5), left, right, f, slope, f_left, f_right, newton
       integer :: iteration
+      logical :: last
 
+      b = 0.0_wp
+      b(:size(c) - 1) = c
       left = lo
       right = hi
-      f_left = value_at(c, left)
-      s = 0.5_wp*(left + right)
-      if (abs(f_left) <= 0.0_wp) then
-         s = left
-         return
+      s = left
+      call evaluate(b, left, f_left, slope)
+      if (abs(f_left) <= 0.0_wp) return
+      if (present(guess)) then
+         s = guess
+      else
+         call evaluate(b, right, f_right, slope)
+         s = left + (right - left)*(f_left/(f_left - f_right))
       end if
+      if (.not. (s > left .and. s < right)) s = 0.5_wp*(left + right)
       do iteration = 1, 100
-         f = value_at(c, s)
+         call evaluate(b, s, f, slope)
          if (abs(f) <= 0.0_wp) return
          if ((f > 0.0_wp) .eqv. (f_left > 0.0_wp)) then
             left = s
@@ -75,13 +96,36 @@ contains
             right = s
          end if
          if (right - left <= 2.0_wp*epsilon(1.0_wp)) return
-         slope = value_at(derivative(c), s)
-         if (abs(f) <= 2.0_wp*epsilon(1.0_wp)*abs(slope)) return
          newton = left
          if (abs(f) < abs(slope)) newton = s - f/slope
-         s = 0.5_wp*(left + right)
-         if (newton > left .and. newton < right) s = newton
+         if (newton > left .and. newton < right) then
+            last = abs(newton - s) <= near
+            s = newton
+            if (last) return
+         else
+            s = 0.5_wp*(left + right)
+         end if
       end do
    end function first_root
+
+   !> Where a function that runs from y0 to y1 on 0..1 is zero: cubic in y that meets both ends and the slopes there.
+   pure real(wp) function inverse_guess(y0, slope0, y1, slope1) result(s)
+      real(wp), intent(in) :: y0, slope0, y1, slope1
+      real(wp) :: x, d0, d1
+
+      x = y0/(y0 - y1)
+      d0 = (y1 - y0)/slope0
+      d1 = (y1 - y0)/slope1
+      s = x*(d0 + x*(3.0_wp - 2.0_wp*d0 - d1 + x*(d0 + d1 - 2.0_wp)))
+   end function inverse_guess
+
+   !> Value and slope of a quintic.
+   pure subroutine evaluate(c, s, value, slope)
+      real(wp), intent(in) :: c(0:5), s
+      real(wp), intent(out) :: value, slope
+
+      value = c(0) + s*(c(1) + s*(c(2) + s*(c(3) + s*(c(4) + s*c(5)))))
+      slope = c(1) + s*(2.0_wp*c(2) + s*(3.0_wp*c(3) + s*(4.0_wp*c(4) + s*5.0_wp*c(5))))
+   end subroutine evaluate
 
 end module rv_dense

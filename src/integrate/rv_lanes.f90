@@ -6,13 +6,13 @@
 module rv_lanes
    use, intrinsic :: ieee_arithmetic, only : ieee_is_finite, ieee_value, ieee_quiet_nan
    use, intrinsic :: iso_c_binding, only : c_char, c_double, c_f_pointer, c_funloc, c_int, c_loc, c_null_char, c_ptr
-   use rv_kinds, only : wp
+   use rv_kinds, only : wp, i8
    use rv_arkode, only : rv_arkode_new, rv_arkode_step, rv_arkode_restart, rv_arkode_fix_step, &
       & rv_arkode_worst_lane, rv_arkode_free, get_arkode_message, rv_at_stop
    use rv_measures, only : measure_lanes, new_measure_lanes, n_measures
    use rv_pressure, only : pressure_history
    use rv_sampler, only : sampler_type, new_sampler
-   use rv_stage, only : solve_stage
+   use rv_stage, only : solve_stage, stage_guess
    use rv_status, only : status_ok, status_step_too_small, status_film_closed, status_not_finite, &
       & status_too_many_steps, status_no_convergence
    use rv_step, only : step_type, new_step
@@ -62,6 +62,7 @@ module rv_lanes
       real(wp) :: rtol = 0.0_wp
       real(wp), allocatable :: q_scale(:, :), v_scale(:, :)  !! added to |q| and |v| in the tolerance
       real(wp), allocatable :: v_weight(:, :)                !! last error weights of v
+      type(stage_guess) :: guess
       integer :: failed = 0                                !! lane whose stage had no solution last
       logical :: closed = .false.                          !! because its film was closed
       integer :: hindrance = 0                             !! lane whose stage had no solution most recently
@@ -181,7 +182,7 @@ contains
             problem%failed = problem%hindrance
          end if
          if (flag < 0) y_new = y   ! a failed step leaves no state
-         if (flag >= 0 .and. all(ieee_is_finite(y_new))) then
+         if (flag >= 0 .and. is_finite(y_new)) then
             y = y_new
             if (flag == rv_at_stop) t = stops(k)
             call end_step(problem, t, y, step)
@@ -313,7 +314,7 @@ contains
       integer(c_int) :: flag
 
       flag = rv_arkode_new(int(problem%lanes%width, c_int), int(2*problem%lanes%dofs, c_int), &
-         & problem%history%start, y, table, &
+         & problem%history%start, y, table, first_step(problem), &
          & c_funloc(rhs), c_funloc(stage), c_funloc(weights), c_loc(problem), integrator)
       if (flag >= 0 .and. settings%fixed_step > 0.0_wp) flag = rv_arkode_fix_step(integrator, settings%fixed_step)
       started = flag >= 0
@@ -322,16 +323,28 @@ contains
       call fail_rest(outcome, status_no_convergence, reason)
    end function start_integrator
 
+   !> A first step that is a small part of the fastest lane's slowest oscillation: an error per step near the tolerance
+   !> for a pressure that jumps at the start.
+   pure real(wp) function first_step(problem) result(h)
+      type(problem_type), intent(in) :: problem
+
+      h = 0.6_wp*problem%rtol**0.2_wp*minval(maxval(problem%q_scale/problem%v_scale, dim=2))
+   end function first_step
+
    subroutine begin_step(problem, t, y, live, step)
       type(problem_type), intent(inout) :: problem
       real(wp), intent(in) :: t
       real(c_double), intent(in) :: y(:)
       logical, intent(in) :: live(:)
       type(step_type), intent(out) :: step
-      real(wp), dimension(problem%lanes%width, problem%lanes%dofs) :: q, v, a
+      real(wp), dimension(problem%lanes%width, problem%lanes%dofs) :: q, v
 
-      call unpack_state(problem, t, y, q, v, a)
-      call new_step(step, t, q, v, a, problem%lanes%tip, live)
+      q = reshape(y(:problem%half), shape(q))
+      v = reshape(y(problem%half + 1:), shape(v))
+      call new_step(step, t, q, v, 0.0_wp*q, problem%lanes%tip, live)
+      call end_step(problem, t, y, step)
+      call step%advance()
+      call problem%guess%begin(t, step%a1)
    end subroutine begin_step
 
    subroutine end_step(problem, t, y, step)
@@ -339,25 +352,26 @@ contains
       real(wp), intent(in) :: t
       real(c_double), intent(in) :: y(:)
       type(step_type), intent(inout) :: step
-      real(wp), dimension(problem%lanes%width, problem%lanes%dofs) :: q, v, a
-
-      call unpack_state(problem, t, y, q, v, a)
-      call step%land(t, q, v, a)
-   end subroutine end_step
-
-   subroutine unpack_state(problem, t, y, q, v, a)
-      type(problem_type), intent(inout) :: problem
-      real(wp), intent(in) :: t
-      real(c_double), intent(in) :: y(:)
-      real(wp), intent(out) :: q(:, :), v(:, :), a(:, :)
       real(wp) :: inlet, outlet
       integer :: closed
 
-      q = reshape(y(:problem%half), shape(q))
-      v = reshape(y(problem%half + 1:), shape(v))
+      call step%land(t, y(:problem%half), y(problem%half + 1:))
       call problem%history%factors(t, inlet, outlet)
-      call problem%lanes%acceleration(inlet, outlet, q, v, a, closed)
-   end subroutine unpack_state
+      call problem%lanes%acceleration(inlet, outlet, step%q1, step%v1, step%a1, closed)
+   end subroutine end_step
+
+   !> Whether all numbers are finite, in a loop that vectors can do.
+   pure logical function is_finite(y)
+      real(c_double), intent(in) :: y(:)
+      integer(i8) :: some
+      integer :: i
+
+      some = 0_i8
+      do i = 1, size(y)
+         some = ior(some, merge(0_i8, 1_i8, abs(y(i)) <= huge(y)))
+      end do
+      is_finite = some == 0_i8
+   end function is_finite
 
    !> ARKODE's right-hand side. 1 where a film is closed: ARKODE then tries a smaller step.
    integer(c_int) function rhs(t, y, ydot, data) bind(C)
@@ -384,10 +398,10 @@ contains
    end function rhs
 
    !> ARKODE's stage. 1 where a lane has no solution.
-   integer(c_int) function stage(t, gamma, base, z, data) bind(C)
+   integer(c_int) function stage(t, gamma, predicted, known, correction, data) bind(C)
       real(c_double), value :: t, gamma
-      real(c_double), intent(in) :: base(*)
-      real(c_double), intent(inout) :: z(*)
+      real(c_double), intent(in) :: predicted(*), known(*)
+      real(c_double), intent(inout) :: correction(*)
       type(c_ptr), value :: data
       type(problem_type), pointer :: problem
       real(wp) :: inlet, outlet
@@ -395,8 +409,9 @@ contains
       call c_f_pointer(data, problem)
       associate (n => problem%half)
          call problem%history%factors(t, inlet, outlet)
-         call solve_stage(problem%lanes, inlet, outlet, gamma, base(:n), base(n + 1:2*n), problem%v_weight, &
-            & z(:n), z(n + 1:2*n), problem%failed, problem%closed)
+         call solve_stage(problem%lanes, t, inlet, outlet, gamma, predicted(:n), predicted(n + 1:2*n), known(:n), &
+            & known(n + 1:2*n), problem%v_weight, problem%guess, correction(:n), correction(n + 1:2*n), &
+            & problem%failed, problem%closed)
       end associate
       if (problem%failed > 0) problem%hindrance = problem%failed
       stage = merge(0_c_int, 1_c_int, problem%failed == 0)

@@ -5,17 +5,35 @@
 !> equation, or a small dense system (LAPACK dgesv) for models of several degrees of freedom. For a
 !> closing lumped reed g rises steadily, without bound as the film closes: one root. A correction that
 !> would take more than three quarters of the film is cut, so that h stays positive.
+!>
+!> Scalar equations are solved a few lanes at a time: few enough that lanes of like cases need the same number of
+!> iterations, and enough for the compiler's vectors.
 module rv_stage
    use, intrinsic :: ieee_arithmetic, only : ieee_is_nan
-   use rv_kinds, only : wp
+   use rv_kinds, only : wp, i8
    use rv_valve_lanes, only : valve_lanes
    implicit none
    private
-   public :: solve_stage
+   public :: solve_stage, stage_guess
 
+   integer, parameter :: together = 32      !! lanes that iterate side by side
    integer, parameter :: max_iterations = 40
    integer, parameter :: max_halvings = 8   !! of a lane's correction, in one iteration
-   real(wp), parameter :: accuracy = 0.1_wp  !! last correction over tolerance; Newton squares it: error below rtol
+   real(wp), parameter :: accuracy = 0.1_wp !! last correction of a system over tolerance; Newton squares it: error below rtol
+   real(wp), parameter :: remainder = 0.005_wp !! error left in a scalar equation over tolerance
+
+   !> The accelerations of the stages solved last: they lead to those of the next.
+   type :: stage_guess
+      private
+      integer :: known = 0              !! stages; at least one after begin
+      real(wp) :: t(2) = 0.0_wp         !! their times, the last one first [s]
+      integer :: column(3) = [1, 2, 3]  !! of the accelerations at these times, and of the stage at work
+      real(wp), allocatable :: a(:, :)  !! accelerations, one column each [m s-2]
+   contains
+      procedure :: begin
+      procedure, private :: weights
+      procedure, private :: keep
+   end type stage_guess
 
    interface
       subroutine dgesv(n, nrhs, a, lda, ipiv, b, ldb, info)
@@ -28,69 +46,182 @@ module rv_stage
 
 contains
 
-   !> Solve for all lanes. `failed` is the first lane that has no solution, or 0; `closed` tells that its film is closed.
-   subroutine solve_stage(lanes, inlet, outlet, gamma, base_q, base_v, weight, q, v, failed, closed)
+   !> Factors of the last two accelerations that draw them on to time t.
+   pure function weights(self, t) result(weight)
+      class(stage_guess), intent(in) :: self
+      real(wp), intent(in) :: t
+      real(wp) :: weight(2)
+
+      weight = [1.0_wp, 0.0_wp]
+      if (self%known < 2) return
+      weight(2) = -(t - self%t(1))/(self%t(1) - self%t(2))
+      weight(1) = 1.0_wp - weight(2)
+   end function weights
+
+   !> The stage at work, at time t, is solved. Of two at nearly the same time the newer stays.
+   pure subroutine keep(self, t, gamma)
+      class(stage_guess), intent(inout) :: self
+      real(wp), intent(in) :: t, gamma
+
+      if (abs(t - self%t(1)) > 0.5_wp*gamma) then
+         self%column = self%column([3, 1, 2])
+         self%t(2) = self%t(1)
+         self%known = 2
+      else
+         self%column = self%column([3, 2, 1])
+      end if
+      self%t(1) = t
+   end subroutine keep
+
+   !> Begin, or begin anew, with accelerations known at time t.
+   pure subroutine begin(self, t, a)
+      class(stage_guess), intent(inout) :: self
+      real(wp), intent(in) :: t            !! [s]
+      real(wp), intent(in) :: a(:, :)      !! [m s-2], (width, dofs)
+
+      if (.not. allocated(self%a)) allocate(self%a(size(a), 3), source=0.0_wp)
+      self%known = 1
+      self%t(1) = t
+      self%a(:, self%column(1)) = reshape(a, [size(a)])
+   end subroutine begin
+
+   !> Solve q = q_n + known_q + gamma v, v = v_n + known_v + gamma a for all lanes.
+   !>
+   !> `failed` is the first lane that has no solution, or 0; `closed` tells that its film is closed.
+   subroutine solve_stage(lanes, t, inlet, outlet, gamma, q_n, v_n, known_q, known_v, weight, guess, dq, dv, failed, closed)
       class(valve_lanes), intent(inout) :: lanes
-      real(wp), intent(in) :: inlet, outlet                       !! pressure factors at the stage's time
+      real(wp), intent(in) :: t                                   !! [s]
+      real(wp), intent(in) :: inlet, outlet                       !! pressure factors at t
       real(wp), intent(in) :: gamma                               !! step times diagonal coefficient [s], > 0
-      real(wp), intent(in) :: base_q(lanes%width, lanes%dofs)     !! known part of q
-      real(wp), intent(in) :: base_v(lanes%width, lanes%dofs)     !! known part of v
+      real(wp), dimension(lanes%width, lanes%dofs), intent(in) :: q_n, v_n           !! the state the step starts from
+      real(wp), dimension(lanes%width, lanes%dofs), intent(in) :: known_q, known_v   !! what earlier stages add
       real(wp), intent(in) :: weight(lanes%width, lanes%dofs)     !! one over the allowed error of v
-      real(wp), intent(inout) :: q(lanes%width, lanes%dofs)       !! prediction, then solution
-      real(wp), intent(inout) :: v(lanes%width, lanes%dofs)       !! prediction, then solution
+      type(stage_guess), intent(inout) :: guess
+      real(wp), dimension(lanes%width, lanes%dofs), intent(out) :: dq, dv            !! q - q_n and v - v_n
       integer, intent(out) :: failed
       logical, intent(out) :: closed
+      real(wp) :: drawn(2)
+      integer :: first, last
 
-      if (lanes%dofs == 1) then
-         call solve_scalar(lanes, inlet, outlet, gamma, base_q(:, 1), base_v(:, 1), weight(:, 1), q(:, 1), v(:, 1), &
-            & failed, closed)
-      else
-         call solve_system(lanes, inlet, outlet, gamma, base_q, base_v, weight, q, v, failed, closed)
-      end if
+      drawn = guess%weights(t)
+      associate (now => guess%column(3), old => guess%column(1), older => guess%column(2))
+         if (lanes%dofs > 1) then
+            guess%a(:, now) = drawn(1)*guess%a(:, old) + drawn(2)*guess%a(:, older)
+            call solve_system(lanes, inlet, outlet, gamma, q_n + known_q, v_n + known_v, weight, guess%a(:, now), dq, dv, &
+               & failed, closed)
+            dq = dq - q_n
+            dv = dv - v_n
+         else
+            do first = 1, lanes%width, together
+               last = min(first + together - 1, lanes%width)
+               call solve_scalar(lanes, first, last, inlet, outlet, gamma, q_n(first:last, 1), v_n(first:last, 1), &
+                  & known_q(first:last, 1), known_v(first:last, 1), lanes%gap(first:last), weight(first:last, 1), drawn, &
+                  & guess%a(first:last, old), guess%a(first:last, older), guess%a(first:last, now), &
+                  & dq(first:last, 1), dv(first:last, 1), failed, closed)
+               if (failed > 0) return
+            end do
+         end if
+      end associate
+      if (failed == 0) call guess%keep(t, gamma)
    end subroutine solve_stage
 
-   subroutine solve_scalar(lanes, inlet, outlet, gamma, base_q, base_v, weight, q, v, failed, closed)
+   !> Some lanes of one degree of freedom.
+   subroutine solve_scalar(lanes, first, last, inlet, outlet, gamma, q_n, v_n, known_q, known_v, gap, weight, &
+      & drawn, a_old, a_older, a_now, dq, dv, failed, closed)
       class(valve_lanes), intent(inout) :: lanes
+      integer, intent(in) :: first, last
       real(wp), intent(in) :: inlet, outlet, gamma
-      real(wp), dimension(lanes%width), intent(in) :: base_q, base_v, weight
-      real(wp), dimension(lanes%width), intent(inout) :: q, v
+      real(wp), dimension(first:last), intent(in) :: q_n, v_n, known_q, known_v, gap, weight
+      real(wp), intent(in) :: drawn(2)
+      real(wp), dimension(first:last), intent(in) :: a_old, a_older
+      real(wp), dimension(first:last), intent(out) :: a_now, dq, dv
       integer, intent(out) :: failed
       logical, intent(out) :: closed
-      real(wp), dimension(lanes%width) :: a, a_q, a_v
-      real(wp) :: film, correction, limit
-      logical :: open(lanes%width)
-      integer :: iteration, i
+      real(wp), dimension(together) :: base_q, base_v, v, step, film, left
+      integer :: n, iteration
+      logical :: open
 
-      do i = 1, lanes%width
-         film = base_q(i) + lanes%gap(i)
-         if (.not. (film + gamma*v(i) > 0.1_wp*film .and. film + gamma*v(i) > 0.0_wp)) then
-            v(i) = (max(0.1_wp*film, 1.0e-3_wp*lanes%gap(i)) - film)/gamma
-         end if
-      end do
-      do iteration = 1, max_iterations
-         q = base_q + gamma*v
-         call lanes%linearise(inlet, outlet, q, v, a, a_q, a_v, failed)
-         if (failed > 0) exit
-         do i = 1, lanes%width
-            correction = -(v(i) - base_v(i) - gamma*a(i))/(1.0_wp - gamma*(a_v(i) + gamma*a_q(i)))
-            open(i) = .not. abs(correction)*weight(i) <= accuracy
-            limit = -0.75_wp*(q(i) + lanes%gap(i))/gamma
-            if (correction < limit) correction = limit   ! max() may drop a NaN
-            v(i) = v(i) + correction
-         end do
-         if (.not. any(open)) exit
-      end do
-      q = base_q + gamma*v
       closed = .false.
-      if (failed > 0) closed = .not. ieee_is_nan(q(failed))
-      if (failed == 0) failed = first_true(open)
+      n = last - first + 1
+      base_q(:n) = q_n + known_q
+      base_v(:n) = v_n + known_v
+      v(:n) = base_v(:n) + (gamma*drawn(1))*a_old + (gamma*drawn(2))*a_older
+      call keep_open(n, gamma, base_q, gap, v)
+      do iteration = 1, max_iterations
+         call lanes%correction(first, last, inlet, outlet, gamma, base_q, base_v, v, step, film, failed)
+         if (failed > 0) then
+            closed = .not. ieee_is_nan(film(failed - first + 1))
+            return
+         end if
+         call correct(n, gamma, weight, film, step, v, left, open)
+         if (.not. open) exit
+      end do
+      dq = known_q + gamma*v(:n)
+      dv = v(:n) - v_n
+      a_now = (v(:n) - base_v(:n))/gamma
+      if (.not. open) return
+      do failed = first, last
+         if (.not. left(failed - first + 1) <= remainder) return
+      end do
    end subroutine solve_scalar
 
-   subroutine solve_system(lanes, inlet, outlet, gamma, base_q, base_v, weight, q, v, failed, closed)
+   !> Cut predictions that would close a film, or take more than nine tenths of it.
+   pure subroutine keep_open(n, gamma, base_q, gap, v)
+      integer, intent(in) :: n
+      real(wp), intent(in) :: gamma
+      real(wp), intent(in) :: base_q(n), gap(n)
+      real(wp), intent(inout) :: v(n)
+      real(wp) :: film, least, kept
+      integer :: i
+
+      do i = 1, n
+         film = base_q(i) + gap(i)
+         least = 0.1_wp*film
+         least = merge(least, 1.0e-3_wp*gap(i), least > 1.0e-3_wp*gap(i))
+         kept = (least - film)/gamma
+         v(i) = merge(v(i), kept, v(i) > kept)
+      end do
+   end subroutine keep_open
+
+   !> Add Newton's correction to some lanes; `left` is what remains of their error over tolerance, `open` tells that some
+   !> have more than they may.
+   !>
+   !> With the film's force in h^-3, g'' /(2 g') <= 3 gamma/h for a reed that closes: the error left after a correction dv
+   !> is at most 3 gamma dv^2/h. Where the film opens fast the bound may not hold and dv itself is taken;
+   !> where v changes its sign, and the film perhaps its law, nothing is known.
+   pure subroutine correct(n, gamma, weight, film, dv, v, left, open)
+      integer, intent(in) :: n
+      real(wp), intent(in) :: gamma
+      real(wp), dimension(n), intent(in) :: weight, film, dv
+      real(wp), intent(inout) :: v(n)
+      real(wp), intent(out) :: left(n)
+      logical, intent(out) :: open
+      real(wp) :: bend, cut, v_new, turned
+      integer(i8) :: some
+      integer :: i
+
+      some = 0_i8
+      do i = 1, n
+         cut = -0.75_wp*film(i)
+         bend = 3.0_wp*gamma*abs(dv(i))
+         bend = merge(bend, film(i), max(4.0_wp*bend, 6.0_wp*gamma*v(i)) < film(i))
+         left(i) = abs(dv(i))*weight(i)*(bend/film(i))
+         v_new = v(i) + merge(cut/gamma, dv(i), gamma*dv(i) < cut)   ! max() may drop a NaN
+         turned = merge(max(v(i), v_new), 0.0_wp, min(v(i), v_new) <= 0.0_wp)
+         left(i) = merge(huge(left), left(i), turned > 0.0_wp)
+         v(i) = v_new
+         some = ior(some, merge(0_i8, 1_i8, left(i) <= remainder))
+      end do
+      open = some > 0_i8
+   end subroutine correct
+
+   !> Some lanes of several degrees of freedom, from predicted accelerations to those found.
+   subroutine solve_system(lanes, inlet, outlet, gamma, base_q, base_v, weight, predicted, q, v, failed, closed)
       class(valve_lanes), intent(inout) :: lanes
       real(wp), intent(in) :: inlet, outlet, gamma
       real(wp), dimension(lanes%width, lanes%dofs), intent(in) :: base_q, base_v, weight
-      real(wp), dimension(lanes%width, lanes%dofs), intent(inout) :: q, v
+      real(wp), dimension(lanes%width, lanes%dofs), intent(inout) :: predicted
+      real(wp), dimension(lanes%width, lanes%dofs), intent(out) :: q, v
       integer, intent(out) :: failed
       logical, intent(out) :: closed
       real(wp), dimension(lanes%width, lanes%dofs) :: a, correction
@@ -98,14 +229,14 @@ contains
       logical :: open(lanes%width)
       integer :: halvings(lanes%width), iteration, i
 
-      correction = v
+      correction = base_v + gamma*predicted
       v = 0.0_wp   ! halving leads from the prediction back to the start of the step
       open = .true.
       do iteration = 1, max_iterations
          halvings = 0
          do
             q = base_q + gamma*(v + correction)
-            call lanes%linearise(inlet, outlet, q, v + correction, a, a_q, a_v, failed)
+            call lanes%linearise(1, lanes%width, inlet, outlet, q, v + correction, a, a_q, a_v, failed)
             if (failed == 0) exit
             if (halvings(failed) == max_halvings) exit
             halvings(failed) = halvings(failed) + 1
@@ -114,13 +245,14 @@ contains
          v = v + correction
          if (failed > 0) exit
          do i = 1, lanes%width
-            call correct(v(i, :) - base_v(i, :) - gamma*a(i, :), a_q(i, :, :), a_v(i, :, :), correction(i, :))
+            call newton(v(i, :) - base_v(i, :) - gamma*a(i, :), a_q(i, :, :), a_v(i, :, :), correction(i, :))
             open(i) = .not. all(abs(correction(i, :))*weight(i, :) <= accuracy)
          end do
          if (any(open)) cycle
          v = v + correction
          exit
       end do
+      predicted = (v - base_v)/gamma
       q = base_q + gamma*v
       closed = .false.
       if (failed > 0) closed = .not. any(ieee_is_nan(q(failed, :)))
@@ -129,7 +261,7 @@ contains
    contains
 
       !> Newton's correction of one lane; too large for any tolerance where the system is singular.
-      subroutine correct(residual, slope_q, slope_v, dv)
+      subroutine newton(residual, slope_q, slope_v, dv)
          real(wp), intent(in) :: residual(:), slope_q(:, :), slope_v(:, :)
          real(wp), intent(out) :: dv(:)
          real(wp) :: matrix(size(dv), size(dv)), rhs(size(dv), 1)
@@ -143,7 +275,7 @@ contains
          call dgesv(size(dv), 1, matrix, size(dv), pivot, rhs, size(dv), info)
          dv = rhs(:, 1)
          if (info /= 0) dv = huge(1.0_wp)
-      end subroutine correct
+      end subroutine newton
 
    end subroutine solve_system
 

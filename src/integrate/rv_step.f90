@@ -42,12 +42,9 @@ contains
       self%u1 = matmul(q, tip)
       self%w1 = matmul(v, tip)
       self%t1 = t
-      self%q0 = q
-      self%v0 = v
-      self%a0 = a
-      self%u0 = self%u1
-      self%w0 = self%w1
-      self%t0 = t
+      allocate(self%q0, self%v0, self%a0, mold=q)
+      allocate(self%u0, self%w0, mold=self%u1)
+      call self%advance()
    end subroutine new_step
 
    !> Let the next step begin where this one ended.
@@ -62,18 +59,22 @@ contains
       self%w0(:) = self%w1
    end subroutine advance
 
-   !> End the step at t1.
-   pure subroutine land(self, t1, q, v, a)
+   !> End the step at t1. The accelerations a1 there are the caller's to set.
+   pure subroutine land(self, t1, q, v)
       class(step_type), intent(inout) :: self
       real(wp), intent(in) :: t1
-      real(wp), intent(in) :: q(:, :), v(:, :), a(:, :)
+      real(wp), intent(in) :: q(self%width, size(self%tip)), v(self%width, size(self%tip))
+      integer :: k
 
       self%t1 = t1
       self%q1(:, :) = q
       self%v1(:, :) = v
-      self%a1(:, :) = a
-      self%u1(:) = matmul(q, self%tip)
-      self%w1(:) = matmul(v, self%tip)
+      self%u1(:) = self%tip(1)*q(:, 1)
+      self%w1(:) = self%tip(1)*v(:, 1)
+      do k = 2, size(self%tip)
+         self%u1(:) = self%u1 + self%tip(k)*q(:, k)
+         self%w1(:) = self%w1 + self%tip(k)*v(:, k)
+      end do
    end subroutine land
 
    !> Dense output of displacement k of lane i: coefficients of q(s), s = (t - t0)/(t1 - t0).
@@ -82,8 +83,8 @@ contains
       integer, intent(in) :: i, k
       real(wp) :: c(0:5)
 
-      c = quintic(self%t1 - self%t0, self%q0(i, k), self%v0(i, k), self%a0(i, k), &
-         & self%q1(i, k), self%v1(i, k), self%a1(i, k))
+      call quintic(self%t1 - self%t0, self%q0(i, k), self%v0(i, k), self%a0(i, k), &
+         & self%q1(i, k), self%v1(i, k), self%a1(i, k), c)
    end function path
 
    !> Dense output of the tip displacement of lane i [m].
@@ -93,8 +94,8 @@ contains
       real(wp) :: c(0:5)
       integer :: k
 
-      c = 0.0_wp
-      do k = 1, size(self%tip)
+      c = self%tip(1)*self%path(i, 1)
+      do k = 2, size(self%tip)
          c = c + self%tip(k)*self%path(i, k)
       end do
    end function tip_path

@@ -109,7 +109,7 @@ contains
       integer :: number
 
       half = 0.5_wp*self%period
-      number = nint(t/half)
+      number = int(t/half + 0.5_wp)   ! t >= 0
       ramp = max(-0.5_wp, min(0.5_wp, (t - real(number, wp)*half)/self%transition))
       if (mod(number, 2) == 0) then
          inlet = 0.5_wp + ramp

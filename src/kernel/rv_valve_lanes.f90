@@ -6,9 +6,10 @@ module rv_valve_lanes
    use rv_kinds, only : wp
    implicit none
    private
-   public :: valve_lanes, no_film_gap
+   public :: valve_lanes, no_film_gap, most_dofs
 
    real(wp), parameter :: no_film_gap = 1.0e3_wp  !! gap of a lane without film: no reed comes near [m]
+   integer, parameter :: most_dofs = 64           !! degrees of freedom of a case, at most
 
    !> Cases of one model side by side.
    type, abstract :: valve_lanes
@@ -30,6 +31,8 @@ module rv_valve_lanes
       procedure(scales_of), deferred :: scales
       procedure(trace_of), deferred :: trace_values
       procedure(silence_lane), deferred :: silence
+      procedure :: correction
+      procedure :: film_forces
       procedure :: pressure_field
    end type valve_lanes
 
@@ -45,16 +48,17 @@ module rv_valve_lanes
          integer, intent(out) :: closed
       end subroutine acceleration_of
 
-      !> Accelerations and their derivatives with respect to q and v.
-      subroutine linear_form_of(self, inlet, outlet, q, v, a, a_q, a_v, closed)
+      !> Accelerations of lanes first..last and their derivatives with respect to q and v.
+      subroutine linear_form_of(self, first, last, inlet, outlet, q, v, a, a_q, a_v, closed)
          import :: valve_lanes, wp
          class(valve_lanes), intent(inout) :: self
+         integer, intent(in) :: first, last
          real(wp), intent(in) :: inlet, outlet
-         real(wp), intent(in) :: q(self%width, self%dofs)
-         real(wp), intent(in) :: v(self%width, self%dofs)
-         real(wp), intent(out) :: a(self%width, self%dofs)
-         real(wp), intent(out) :: a_q(self%width, self%dofs, self%dofs)   !! da_i/dq_k at (:, i, k)
-         real(wp), intent(out) :: a_v(self%width, self%dofs, self%dofs)
+         real(wp), intent(in) :: q(first:last, self%dofs)
+         real(wp), intent(in) :: v(first:last, self%dofs)
+         real(wp), intent(out) :: a(first:last, self%dofs)
+         real(wp), intent(out) :: a_q(first:last, self%dofs, self%dofs)   !! da_i/dq_k at (:, i, k)
+         real(wp), intent(out) :: a_v(first:last, self%dofs, self%dofs)
          integer, intent(out) :: closed
       end subroutine linear_form_of
 
@@ -108,6 +112,39 @@ module rv_valve_lanes
    end interface
 
 contains
+
+   !> Newton's correction dv for v = base_v + gamma a(base_q + gamma v, v) of lanes first..last, of one degree of freedom,
+   !> and the film under the tip at v.
+   subroutine correction(self, first, last, inlet, outlet, gamma, base_q, base_v, v, dv, film, closed)
+      class(valve_lanes), intent(inout) :: self
+      integer, intent(in) :: first, last
+      real(wp), intent(in) :: inlet, outlet
+      real(wp), intent(in) :: gamma                                        !! [s], > 0
+      real(wp), dimension(first:last), intent(in) :: base_q, base_v, v     !! [m], [m s-1]
+      real(wp), dimension(first:last), intent(out) :: dv, film             !! [m s-1], [m]
+      integer, intent(out) :: closed
+      real(wp), dimension(first:last) :: q, a, a_q, a_v
+
+      q = base_q + gamma*v
+      film = q + self%gap(first:last)
+      call self%linearise(first, last, inlet, outlet, q, v, a, a_q, a_v, closed)
+      dv = -(v - base_v - gamma*a)/(1.0_wp - gamma*(a_v + gamma*a_q))
+   end subroutine correction
+
+   !> film_force of all lanes, none where a lane has no film. Models of many lanes have a faster one of their own.
+   subroutine film_forces(self, inlet, outlet, q, v, a, force, rate)
+      class(valve_lanes), intent(inout) :: self
+      real(wp), intent(in) :: inlet, outlet
+      real(wp), intent(in), dimension(self%width, self%dofs) :: q, v, a
+      real(wp), intent(out), dimension(self%width) :: force, rate   !! [N], [N s-1]
+      integer :: i
+
+      force = 0.0_wp
+      rate = 0.0_wp
+      do i = 1, self%width
+         if (self%has_film(i)) call self%film_force(i, inlet, outlet, q(i, :), v(i, :), a(i, :), force(i), rate(i))
+      end do
+   end subroutine film_forces
 
    !> Film pressure of one lane at the nodes of its mesh [Pa]. Models without a film field have no nodes.
    subroutine pressure_field(self, lane, inlet, outlet, q, v, pressure)

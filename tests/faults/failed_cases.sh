@@ -2,7 +2,7 @@
 . "$(dirname "$0")/common.sh"
 cat >deck.nml <<'END'
 &run model = 'traditional', 'squeeze', block_size = 5 /
-&solver max_steps = 150 /
+&solver max_steps = 120 /
 &sweep key = 'pressure.inlet_kpa', from = 5.0, to = 40.0, count = 8 /
 &sweep key = 'pressure.period_ms', values = 40.0, 60.0 /
 END

@@ -3,7 +3,7 @@
 cat >deck.nml <<'END'
 &run model = 'traditional', 'squeeze', block_size = 7, traces = .true., trace_dt_ms = 0.5 /
 &hydro load = 'maali' /
-&solver max_steps = 450 /
+&solver max_steps = 400 /
 &sweep key = 'pressure.inlet_kpa', from = 5.0, to = 40.0, count = 8 /
 &sweep key = 'film.gap_mm', from = 0.05, to = 0.30, count = 20 /
 END

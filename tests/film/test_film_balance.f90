@@ -21,7 +21,7 @@ program test_film_balance
 
    call volume()
    call energy(1.0e-6_wp, 1.0e-6_wp)
-   call energy(1.0e-7_wp, 1.0e-8_wp)
+   call energy(1.0e-7_wp, 2.0e-8_wp)
    call pulled_shut()
    call hard_cases()
    call suite%finish()

@@ -122,7 +122,7 @@ contains
          call some_state(lanes, number, q, v)
          pressure = scatter(2, number + 900)
          inlet = pressure(1)
-         call lanes%linearise(inlet, pressure(2), q, v, a, a_q, a_v, closed)
+         call lanes%linearise(1, lanes%width, inlet, pressure(2), q, v, a, a_q, a_v, closed)
          call lanes%acceleration(inlet, pressure(2), q, v, again, closed)
          apart = max(apart, maxval(abs(again - a))/maxval(abs(a)))
          do k = 1, lanes%dofs
@@ -252,7 +252,7 @@ contains
          q(w, 1) = -1.01_wp*lanes%gap(w)
          call lanes%acceleration(1.0_wp, 0.0_wp, q, 0.0_wp*q, a, closed)
          call suite%equal("lane "//to_text(w)//" the first in its seat", closed, w)
-         call lanes%linearise(1.0_wp, 0.0_wp, q, 0.0_wp*q, a, a_q, a_v, closed)
+         call lanes%linearise(1, lanes%width, 1.0_wp, 0.0_wp, q, 0.0_wp*q, a, a_q, a_v, closed)
          call suite%equal("linearised", closed, w)
       end do
    end subroutine check_closed
@@ -273,7 +273,7 @@ contains
       v(last, :) = 0.0_wp
       call lanes%acceleration(1.0_wp, 0.0_wp, q, v, before, closed)
       call lanes%silence(last)
-      call lanes%linearise(1.0_wp, 0.0_wp, q, v, a, a_q, a_v, closed)
+      call lanes%linearise(1, lanes%width, 1.0_wp, 0.0_wp, q, v, a, a_q, a_v, closed)
       call suite%equal(name//": silenced, not closed", closed, 0)
       call suite%close("no acceleration, no derivative", maxval(abs(a(last, :))) + maxval(abs(a_q(last, :, :))) &
          & + maxval(abs(a_v(last, :, :))), 0.0_wp, 0.0_wp, 0.0_wp)

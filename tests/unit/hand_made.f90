@@ -79,7 +79,8 @@ contains
 
       call new_step(step, t0, rows(curve, factor, 0, t0, t0), rows(curve, factor, 1, t0, t0), rows(curve, factor, 2, t0, t0), &
          & lanes%tip, live)
-      call step%land(t1, rows(curve, factor, 0, t0, t1), rows(curve, factor, 1, t0, t1), rows(curve, factor, 2, t0, t1))
+      call step%land(t1, rows(curve, factor, 0, t0, t1), rows(curve, factor, 1, t0, t1))
+      step%a1 = rows(curve, factor, 2, t0, t1)
       call measures%observe(step, lanes, some_wave())
    end subroutine feed_step
 

@@ -62,19 +62,20 @@ contains
       end do
    end subroutine acceleration
 
-   subroutine linearise(self, inlet, outlet, q, v, a, a_q, a_v, closed)
+   subroutine linearise(self, first, last, inlet, outlet, q, v, a, a_q, a_v, closed)
       class(spring_valve), intent(inout) :: self
+      integer, intent(in) :: first, last
       real(wp), intent(in) :: inlet, outlet
-      real(wp), intent(in) :: q(self%width, self%dofs), v(self%width, self%dofs)
-      real(wp), intent(out) :: a(self%width, self%dofs)
-      real(wp), intent(out) :: a_q(self%width, self%dofs, self%dofs), a_v(self%width, self%dofs, self%dofs)
+      real(wp), intent(in) :: q(first:last, self%dofs), v(first:last, self%dofs)
+      real(wp), intent(out) :: a(first:last, self%dofs)
+      real(wp), intent(out) :: a_q(first:last, self%dofs, self%dofs), a_v(first:last, self%dofs, self%dofs)
       integer, intent(out) :: closed
       real(wp) :: h, speed, film
       integer :: i, k
 
       self%calls = self%calls + 1
       call self%acceleration(inlet, outlet, q, v, a, closed)
-      do i = 1, self%width
+      do i = first, last
          h = dot_product(self%tip, q(i, :)) + self%gap(i)
          speed = dot_product(self%tip, v(i, :))
          film = self%squeeze(i)/h**3

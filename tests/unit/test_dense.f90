@@ -40,8 +40,8 @@ contains
          power = 0.0_wp
          power(k) = 1.0_wp
          associate (first => derivative(power), second => derivative(derivative(power)))
-            c = quintic(h, value_at(power, t0), value_at(first, t0), value_at(second, t0), &
-               & value_at(power, t0 + h), value_at(first, t0 + h), value_at(second, t0 + h))
+            call quintic(h, value_at(power, t0), value_at(first, t0), value_at(second, t0), &
+               & value_at(power, t0 + h), value_at(first, t0 + h), value_at(second, t0 + h), c)
             worst = 0.0_wp
             do i = 0, 16
                associate (s => real(i, wp)/16.0_wp)
@@ -80,7 +80,7 @@ contains
       real(wp), parameter :: middle = 1.5707963267948966_wp
 
       associate (t0 => middle - 0.5_wp*h, t1 => middle + 0.5_wp*h)
-         c = quintic(h, sin(t0), cos(t0), -sin(t0), sin(t1), cos(t1), -sin(t1))
+         call quintic(h, sin(t0), cos(t0), -sin(t0), sin(t1), cos(t1), -sin(t1), c)
       end associate
    end function step_of_sine
 

@@ -318,7 +318,7 @@ contains
       integer :: closed
 
       call lanes%acceleration(inlet, outlet, as_state(u), as_state(v), a_out, closed)
-      call lanes%linearise(inlet, outlet, as_state(u), as_state(v), a_again, a_u, a_v, closed)
+      call lanes%linearise(1, lanes%width, inlet, outlet, as_state(u), as_state(v), a_again, a_u, a_v, closed)
       suite_agrees = suite_agrees .and. all(abs(a_out - a_again) <= 1.0e-9_wp*(abs(a_out) + 1.0_wp) .or. closed > 0)
       a = a_out(:, 1)
    end subroutine acceleration
@@ -330,7 +330,7 @@ contains
       real(wp) :: a(size(u), 1), slope_u(size(u), 1, 1), slope_v(size(u), 1, 1)
       integer :: closed
 
-      call lanes%linearise(inlet, outlet, as_state(u), as_state(v), a, slope_u, slope_v, closed)
+      call lanes%linearise(1, lanes%width, inlet, outlet, as_state(u), as_state(v), a, slope_u, slope_v, closed)
       a_u = slope_u(:, 1, 1)
       a_v = slope_v(:, 1, 1)
    end subroutine jacobian

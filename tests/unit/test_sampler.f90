@@ -130,8 +130,8 @@ contains
       call sampler%sample(step, lanes, history)
       do k = 2, last
          if (present(fails_at)) step%live(2) = knot(k - 1) < fails_at
-         call step%land(knot(k), state(curve, knot(k)), state(derivative(curve), knot(k)), &
-            & state(derivative(derivative(curve)), knot(k)))
+         call step%land(knot(k), state(curve, knot(k)), state(derivative(curve), knot(k)))
+         step%a1 = state(derivative(derivative(curve)), knot(k))
          call sampler%sample(step, lanes, history)
          call step%advance()
       end do
