@@ -16,7 +16,7 @@ module rv_cli_commands
    use rv_manifest, only : manifest_type
    use rv_modes, only : modes_text
    use rv_posix, only : catch_signals, is_terminal, seconds
-   use rv_results_netcdf, only : expected_size
+   use rv_room, only : expected_room, room_type, size_text
    use rv_run, only : merge_folder, run_deck, run_options, run_outcome
    use rv_text, only : to_text
    implicit none
@@ -119,6 +119,7 @@ contains
       type(arguments_type), intent(in) :: arguments
       type(deck_type) :: deck
       type(manifest_type) :: manifest
+      type(room_type) :: room
       real(wp) :: cost
       integer :: i, blocks, threads
 
@@ -135,9 +136,13 @@ contains
       if (threads == 0) threads = omp_get_max_threads()
       cost = seconds_per_case(deck)*real(deck%case_count(), wp)
       call new_manifest(deck, manifest)
+      room = expected_room(manifest)
       call say("About "//duration_text(cost/real(min(threads, blocks), wp))//" with " &
-         & //counted(int(min(threads, blocks), i8), "thread")//" and "//size_text(expected_size(manifest)) &
+         & //counted(int(min(threads, blocks), i8), "thread")//" and "//size_text(room%netcdf) &
          & //" for results.nc, estimated from a few cases run just now.")
+      if (manifest%has_csv) call say(size_text(room%csv)//" for summary.csv and, until both are written, " &
+         & //size_text(room%parts)//" for parts.")
+      if (.not. manifest%has_csv) call say("No summary.csv; until results.nc is written, "//size_text(room%parts)//" for parts.")
       if (blocks < threads .and. cost > long_run) call say("A block runs on one thread: run.block_size = " &
          & //to_text((deck%case_count() + threads - 1)/threads)//" or less would keep " &
          & //counted(int(threads, i8), "thread")//" busy.")
@@ -243,23 +248,5 @@ contains
       word = value_text(key, value)
       if (word == "") word = deck%trace_name(nint(value))%s
    end function word_of
-
-   !> "130 kB", "2.1 GB"
-   pure function size_text(bytes) result(text)
-      integer(i8), intent(in) :: bytes
-      character(len=:), allocatable :: text
-      character(len=2), parameter :: unit(5) = ["B ", "kB", "MB", "GB", "TB"]
-      real(wp) :: x
-      integer :: i
-
-      x = real(bytes, wp)
-      i = 1
-      do while (x >= 1000.0_wp .and. i < size(unit))
-         x = x/1000.0_wp
-         i = i + 1
-      end do
-      text = to_text(x, 2)//" "//trim(unit(i))
-      if (x >= 99.5_wp) text = to_text(nint(x))//" "//trim(unit(i))
-   end function size_text
 
 end module rv_cli_commands

@@ -4,6 +4,7 @@ module rv_cli_report
    use rv_cli_output, only : complain, exit_failed, exit_fine, say, status_of
    use rv_cli_progress, only : duration_text, rate_text
    use rv_error, only : error_type
+   use rv_inputs, only : most_csv_cases
    use rv_kinds, only : wp, i8
    use rv_run, only : run_outcome
    use rv_status, only : n_statuses, n_warnings, status_name, status_ok, warning_name
@@ -36,7 +37,7 @@ contains
          call tell_kept(arguments, folder, outcome, "go on with")
          status = exit_failed
       else
-         call tell_failures(outcome%tally, folder)
+         call tell_failures(outcome%tally, folder, trim(merge("summary.csv", "results.nc ", outcome%has_csv)))
          if (.not. arguments%quiet) then
             if (arguments%slices > 0 .and. .not. outcome%was_complete) then
                call tell_slice(arguments, folder, outcome)
@@ -69,16 +70,16 @@ contains
    end subroutine tell_kept
 
    !> The first failures one by one, and how many there are.
-   subroutine tell_failures(tally, folder)
+   subroutine tell_failures(tally, folder, file)
       type(tally_type), intent(in) :: tally
-      character(len=*), intent(in) :: folder
+      character(len=*), intent(in) :: folder, file   !! which has them all
       integer :: i
 
       do i = 1, tally%named
          call complain(tally%failure(i)%s)
       end do
       if (tally%failed > tally%named .and. tally%named > 0) call complain("and " &
-         & //to_text(tally%failed - tally%named)//" more failed; all of them are in '"//folder//"/summary.csv'")
+         & //to_text(tally%failed - tally%named)//" more failed; all of them are in '"//folder//"/"//file//"'")
    end subroutine tell_failures
 
    subroutine tell_results(folder, outcome)
@@ -92,7 +93,13 @@ contains
             & //bare(outcome%tally%warning))
       end do
       call say(cases_text(outcome))
-      call say("Results: "//folder//"/summary.csv and "//folder//"/results.nc")
+      if (outcome%has_csv) then
+         call say("Results: "//folder//"/summary.csv and "//folder//"/results.nc")
+      else
+         if (outcome%tally%cases > most_csv_cases) call complain("no summary.csv of more than " &
+            & //counted(most_csv_cases, "case")//"; run.csv = 'always' in the deck would write it")
+         call say("Results: "//folder//"/results.nc")
+      end if
       if (.not. outcome%was_complete) call say(time_text(outcome))
    end subroutine tell_results
 

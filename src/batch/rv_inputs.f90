@@ -3,7 +3,8 @@ module rv_inputs
    use rv_kinds, only : wp, i8
    use rv_text, only : text_type
    use rv_number, only : tidy
-   use rv_keys, only : choice_count, choice_key, choice_name, from_si, full_name, key_run_model, keys, n_keys, text_key
+   use rv_keys, only : choice_count, choice_key, choice_name, csv_always, csv_auto, from_si, full_name, key_run_compress, &
+      & key_run_csv, key_run_model, keys, n_keys, text_key
    use rv_deck, only : deck_type
    use rv_block, only : block_count, trace_count, trace_times
    use rv_field_mesh, only : deck_field_mesh
@@ -11,7 +12,9 @@ module rv_inputs
    use rv_version, only : code_version
    implicit none
    private
-   public :: new_manifest, input_values
+   public :: new_manifest, input_values, most_csv_cases
+
+   integer(i8), parameter :: most_csv_cases = 2000000   !! beyond them a summary is written only if it is asked for
 
 contains
 
@@ -31,6 +34,13 @@ contains
       manifest%blocks = block_count(deck)
       manifest%time = tidy(trace_times(deck)*1.0e3_wp)
       manifest%traces = trace_count(deck)
+      manifest%compress = nint(deck%value(key_run_compress))
+      select case (nint(deck%value(key_run_csv)))
+      case (csv_auto)
+         manifest%has_csv = manifest%cases <= most_csv_cases
+      case default
+         manifest%has_csv = nint(deck%value(key_run_csv)) == csv_always
+      end select
       call deck_field_mesh(deck, manifest%fields)
       allocate(swept, source=deck%swept_keys())
       allocate(manifest%input(size(swept) + 1))

@@ -17,7 +17,7 @@ module rv_keys
    public :: default_load, find_key, full_name, default_value, to_si, from_si, value_text
    public :: choice_count, choice_name, choice_index
    public :: key_run_title, key_run_model, key_run_start, key_run_t_end_ms, key_run_traces, &
-      & key_run_trace_dt_ms, key_run_block_size
+      & key_run_trace_dt_ms, key_run_block_size, key_run_compress, key_run_csv
    public :: key_reed_a_mm, key_reed_b_mm, key_reed_hole_diameter_mm, key_reed_width_mm, key_reed_thickness_mm, &
       & key_reed_density_kg_m3, key_reed_youngs_modulus_gpa, key_reed_poisson_ratio, key_reed_k_a, &
       & key_reed_action_area_mm2
@@ -30,12 +30,13 @@ module rv_keys
    public :: key_sweep_key, key_sweep_values, key_sweep_from, key_sweep_to, key_sweep_count, key_sweep_scale
    public :: key_design_file
    public :: model_traditional, model_squeeze, model_film, model_film_table, load_by_model
+   public :: csv_auto, csv_always, csv_never
    public :: kind_square, kind_trace, start_by_kind, start_rest, start_equilibrium
 
    !> Places in `keys`, in the table's order.
    enum, bind(c)
       enumerator :: key_run_title = 1, key_run_model, key_run_start, key_run_t_end_ms, key_run_traces
-      enumerator :: key_run_trace_dt_ms, key_run_block_size
+      enumerator :: key_run_trace_dt_ms, key_run_block_size, key_run_compress, key_run_csv
       enumerator :: key_reed_a_mm, key_reed_b_mm, key_reed_hole_diameter_mm, key_reed_width_mm
       enumerator :: key_reed_thickness_mm, key_reed_density_kg_m3, key_reed_youngs_modulus_gpa
       enumerator :: key_reed_poisson_ratio, key_reed_k_a, key_reed_action_area_mm2
@@ -56,9 +57,11 @@ module rv_keys
    integer, parameter :: real_key = 1, integer_key = 2, logical_key = 3, choice_key = 4, text_key = 5
    integer, parameter :: mixed_key = 6   !! whatever the swept key is
 
-   !> Values of run.model, hydro.load (0: published for lumped, maali for film models), pressure.kind and run.start.
+   !> Values of run.model, hydro.load (0: published for lumped, maali for film models), pressure.kind,
+   !> run.start and run.csv.
    integer, parameter :: model_traditional = 1, model_squeeze = 2, model_film = 3, model_film_table = 4, n_models = 4
    integer, parameter :: load_by_model = 0
+   integer, parameter :: csv_auto = 1, csv_always = 2, csv_never = 3
    integer, parameter :: kind_square = 1, kind_trace = 2
    integer, parameter :: start_by_kind = 0, start_rest = 1, start_equilibrium = 2
 
@@ -91,7 +94,7 @@ module rv_keys
    logical, parameter :: without_modes(n_models) = [.true., .true., .false., .true.]
    logical, parameter :: only_lumped(n_models) = [.true., .true., .false., .false.]
 
-   type(key_type), parameter :: run_keys(7) = [ &
+   type(key_type), parameter :: run_keys(9) = [ &
       & key_type("run", "title", text_key, "", one, "", none, 200.0_wp, &
       & "a name for the results", sweepable=.false.), &
       & key_type("run", "model", choice_key, "", one, "squeeze", none, none, &
@@ -108,7 +111,11 @@ module rv_keys
       & "time between two stored samples", 1.0e-4_wp, 10.0_wp, sweepable=.false.), &
       & key_type("run", "block_size", integer_key, "", one, "0", 0.0_wp, 1.0e6_wp, &
       & "cases in one block: the unit of work, and what a killed run can lose; 0: set by the deck's number of cases", &
-      & sweepable=.false.)]
+      & sweepable=.false.), &
+      & key_type("run", "compress", integer_key, "", one, "0", 0.0_wp, 9.0_wp, &
+      & "compression of results.nc: 0 none, 1 quick, 9 smallest", sweepable=.false.), &
+      & key_type("run", "csv", choice_key, "", one, "auto", none, none, &
+      & "write summary.csv; auto: up to 2 million cases", choices="auto always never", sweepable=.false.)]
 
    type(key_type), parameter :: reed_keys(10) = [ &
       & key_type("reed", "a_mm", real_key, "mm", milli, "2.5", 1.0e-3_wp, 1.0e3_wp, &

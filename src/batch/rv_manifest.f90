@@ -9,6 +9,7 @@ module rv_manifest
    use rv_text, only : text_type, to_text
    use rv_checksum, only : crc32_text
    use rv_field_mesh, only : field_mesh
+   use rv_row_text, only : row_text
    use rv_records, only : add_record, next_record, record_count, record_value
    implicit none
    private
@@ -19,7 +20,7 @@ module rv_manifest
    integer, parameter :: kind_text = 3     !! the index of one of some texts, such as file names
 
    character(len=*), parameter :: first_record = "reedvalve_manifest"
-   character(len=*), parameter :: format_version = "1"
+   character(len=*), parameter :: format_version = "2"
 
    !> One column that tells the cases apart: the model, or a swept key.
    type :: input_type
@@ -39,6 +40,8 @@ module rv_manifest
       type(input_type), allocatable :: input(:)   !! the model first
       real(wp), allocatable :: time(:)            !! of the traces [ms]; empty without traces
       integer :: traces = 0                       !! values in a trace sample
+      integer :: compress = 0                     !! of results.nc, 0 to 9
+      logical :: has_csv = .true.                 !! there is to be a summary.csv
       type(field_mesh) :: fields                  !! of the film's pressure, if they are stored
    contains
       procedure :: to_text => manifest_to_text
@@ -65,6 +68,8 @@ contains
       call add_record(text, "blocks", to_text(self%blocks))
       call add_record(text, "time_ms", reals_to_text(self%time))
       call add_record(text, "traces", to_text(self%traces))
+      call add_record(text, "compress", to_text(self%compress))
+      call add_record(text, "csv", trim(merge("yes", "no ", self%has_csv)))
       call add_record(text, "field_time_ms", reals_to_text(self%fields%time))
       call add_record(text, "node_x_mm", reals_to_text(self%fields%x))
       call add_record(text, "node_y_mm", reals_to_text(self%fields%y))
@@ -101,6 +106,9 @@ contains
       if (status == 0) read(value, *, iostat=status) self%fields%rings
       value = record_value(text, "traces")
       if (status == 0) read(value, *, iostat=status) self%traces
+      value = record_value(text, "compress")
+      if (status == 0) read(value, *, iostat=status) self%compress
+      self%has_csv = record_value(text, "csv") == "yes"
       value = record_value(text, "cases")
       if (status == 0) read(value, *, iostat=status) self%cases
       value = record_value(text, "blocks")
@@ -180,21 +188,20 @@ contains
       end do
    end subroutine input_from_text
 
-   !> Exact: to_text gives every double the digits that read back the same.
+   !> Exact: 17 digits of a double read back the same.
    pure function reals_to_text(time) result(text)
       real(wp), intent(in) :: time(:)
       character(len=:), allocatable :: text
-      character(len=:), allocatable :: buffer, one
-      integer :: i, used
+      type(row_text) :: row
+      integer :: i
 
-      allocate(character(len=26*size(time)) :: buffer)
-      used = 0
+      call row%add_whole(size(time, kind=i8))
+      call row%add(" ")
       do i = 1, size(time)
-         one = to_text(time(i))//" "
-         buffer(used + 1:used + len(one)) = one
-         used = used + len(one)
+         call row%add_number(time(i), 17)
+         call row%add(" ")
       end do
-      text = to_text(size(time))//" "//buffer(:used)
+      text = row%bytes(:row%used)
    end function reals_to_text
 
    pure subroutine reals_from_text(text, time, status)

@@ -7,7 +7,7 @@ module rv_merge
    use rv_kinds, only : wp, i8
    use rv_error, only : error_type, fail, rv_io
    use rv_text, only : to_text
-   use rv_posix, only : check_room, free_bytes, remove_file, rename_path, seconds, sync_folder
+   use rv_posix, only : check_room, free_bytes, path_kind, path_none, remove_file, rename_path, seconds, sync_folder
    use rv_file, only : file_type, new_suffix
    use rv_block, only : block_result
    use rv_manifest, only : manifest_type
@@ -22,10 +22,14 @@ module rv_merge
    private
    public :: merge_parts
 
+   integer, parameter :: blocks_on_their_way = 8   !! are sent to the disk together
+
    !> Both results in the making.
    type :: writers_type
       type(netcdf_writer) :: netcdf
       type(csv_writer) :: csv
+      type(file_type) :: netcdf_bytes, csv_bytes   !! the same files once more, to have them on their way to the disk
+      logical :: has_csv = .true.
    end type writers_type
 
    !> Where the merge stands. Its threads touch it in the order of the blocks only, but for `is_over`.
@@ -67,7 +71,7 @@ contains
          call abandon(folder, writers, error)
          return
       end if
-      call into_place(folder, error)
+      call into_place(folder, manifest%has_csv, error)
    end subroutine merge_parts
 
    subroutine write_both(folder, manifest, threads, monitor, writers, tally, stopped, error)
@@ -87,19 +91,24 @@ contains
       identity = manifest%identity()
       state%progress = progress_type(phase=phase_merge, cases=manifest%cases)
       call writers%netcdf%create(folder%file(netcdf_name//new_suffix), manifest, error)
-      if (.not. allocated(error)) call writers%csv%create(folder%file(csv_name//new_suffix), manifest, error)
+      writers%has_csv = manifest%has_csv
+      if (manifest%has_csv .and. .not. allocated(error)) call writers%csv%create(folder%file(csv_name//new_suffix), manifest, error)
+      if (.not. allocated(error)) call writers%netcdf_bytes%open_old(folder%file(netcdf_name//new_suffix), error)
+      if (manifest%has_csv .and. .not. allocated(error)) call writers%csv_bytes%open_old(folder%file(csv_name//new_suffix), error)
       if (allocated(error)) return
       !$omp parallel num_threads(min(threads, max(1, manifest%blocks))) default(none) &
       !$omp & shared(folder, manifest, identity, writers, monitor, state)
       call work(folder, manifest%blocks, identity, writers, monitor, state)
       !$omp end parallel
+      call writers%netcdf_bytes%close()
+      call writers%csv_bytes%close()
       tally = state%tally
       stopped = state%stopped
       call move_alloc(state%error, error)
       if (allocated(error) .or. stopped) return
       if (state%progress%done /= manifest%cases) call fail(error, rv_io, "the parts in '"//folder%parts//"' hold " &
          & //to_text(state%progress%done)//" cases instead of "//to_text(manifest%cases))
-      if (.not. allocated(error)) call writers%csv%close(error)
+      if (manifest%has_csv .and. .not. allocated(error)) call writers%csv%close(error)
       if (.not. allocated(error)) call writers%netcdf%close(error)
    end subroutine write_both
 
@@ -120,6 +129,9 @@ contains
          !$omp ordered
          call put_load(folder, load, writers, monitor, state)
          !$omp end ordered
+         if (modulo(block, blocks_on_their_way) > 0) cycle
+         call writers%netcdf_bytes%start_sync()
+         call writers%csv_bytes%start_sync()
       end do
       !$omp end do
    end subroutine work
@@ -140,10 +152,10 @@ contains
       if (is_over) return
       call read_part(folder%parts, identity, block, load%part, found, load%error)
       if (allocated(load%error)) return
-      if (found) then
-         call writers%csv%get_rows(load%part, load%rows)
-      else
+      if (.not. found) then
          call fail(load%error, rv_io, "block "//to_text(block)//" is not finished; resume the run")
+      else if (writers%has_csv) then
+         call writers%csv%get_rows(load%part, load%rows)
       end if
    end subroutine get_load
 
@@ -165,7 +177,7 @@ contains
                & //to_text(load%part%result%first)//" instead of "//to_text(state%progress%done + 1))
          end if
          if (.not. allocated(state%error)) call writers%netcdf%put(load%part, state%error)
-         if (.not. allocated(state%error)) call writers%csv%put_rows(load%rows, state%error)
+         if (writers%has_csv .and. .not. allocated(state%error)) call writers%csv%put_rows(load%rows, state%error)
       end if
       if (state%stopped .or. allocated(state%error)) then
          !$omp atomic write
@@ -200,18 +212,25 @@ contains
       error%message = error%message//"; the disk is full, "//to_text(room)//" bytes are left"
    end subroutine abandon
 
-   !> Give both results their names once they are on the disk, then remove the parts.
-   subroutine into_place(folder, error)
+   !> Give both results their names once they are on the disk, then remove the parts. An older summary goes either way.
+   subroutine into_place(folder, has_csv, error)
       type(results_folder), intent(in) :: folder
+      logical, intent(in) :: has_csv
       type(error_type), allocatable, intent(out) :: error
       type(file_type) :: file
+      integer :: old
 
       call file%open_old(folder%file(netcdf_name//new_suffix), error)
       if (.not. allocated(error)) call file%sync(error)
       call file%close()
       if (.not. allocated(error)) call rename_path(folder%file(netcdf_name//new_suffix), &
          & folder%file(netcdf_name), error)
-      if (.not. allocated(error)) call rename_path(folder%file(csv_name//new_suffix), folder%file(csv_name), error)
+      if (has_csv) then
+         if (.not. allocated(error)) call rename_path(folder%file(csv_name//new_suffix), folder%file(csv_name), error)
+      else
+         if (.not. allocated(error)) call path_kind(folder%file(csv_name), old, error)
+         if (.not. allocated(error) .and. old /= path_none) call remove_file(folder%file(csv_name), error)
+      end if
       if (.not. allocated(error)) call sync_folder(folder%path, error)
       if (.not. allocated(error)) call folder%discard_parts(error)
    end subroutine into_place

@@ -20,13 +20,13 @@ module rv_results_netcdf
    use rv_version, only : code_version, compiler_text, library_text
    implicit none
    private
-   public :: netcdf_writer, expected_size
+   public :: netcdf_writer, expected_size, sample_values
 
    real(wp), parameter :: kilo = 1.0e3_wp       !! Pa to kPa
    integer, parameter :: message_length = 200   !! longer messages are cut
 
    integer, parameter :: chunk_cases = 16384           !! cases in one chunk of a variable without time
-   integer, parameter :: chunk_messages = 1024
+   integer, parameter :: chunk_messages = 64           !! small: where messages are rare, each makes a whole chunk
    integer, parameter :: chunk_bytes = 1048576         !! of a chunk with time, about
    integer, parameter :: cache_size = 2                !! for each variable [MiB]; the library's own may be 16
    integer, parameter :: fixed_bytes = 131072          !! of an empty file, about
@@ -39,6 +39,7 @@ module rv_results_netcdf
       logical :: is_open = .false.
       integer :: file = 0
       integer :: case_dim = 0
+      integer :: compress = 0
       integer :: case_var = 0
       integer :: time_var = 0
       type(input_type), allocatable :: input(:)
@@ -86,6 +87,7 @@ contains
       self%input = manifest%input
       self%times = size(manifest%time)
       self%traces = manifest%traces
+      self%compress = manifest%compress
       self%measure = measure_columns()
       self%fact = fact_columns()
       self%trace = trace_columns()
@@ -278,8 +280,8 @@ contains
       integer, intent(in) :: cases
       integer :: time_dim, chunk(2), i
 
-      chunk(1) = min(self%times, chunk_bytes/bytes_real)
-      chunk(2) = min(cases, max(1, chunk_bytes/(bytes_real*chunk(1))))
+      chunk = trace_chunk(self%times)
+      chunk(2) = min(cases, chunk(2))
       call self%note(nf90_def_dim(self%file, "time", self%times, time_dim), "dimension time")
       self%time_var = new_variable(self, "time_ms", nf90_double, [time_dim], [chunk(1)])
       call self%describe(self%time_var, "ms", "time")
@@ -321,7 +323,7 @@ contains
       self%mesh_var(4) = new_variable(self, "field_time_ms", nf90_double, [time_dim], [self%field_times])
       call self%describe(self%mesh_var(4), "ms", "time of the film pressure fields")
       self%field_var = new_variable(self, "film_pressure_kpa", nf90_double, [node_dim, time_dim, self%case_dim], &
-         & [self%nodes, self%field_times, max(1, min(cases, chunk_bytes/(bytes_real*self%nodes*self%field_times)))])
+         & [self%nodes, self%field_times, min(cases, field_chunk(int(self%nodes, i8)*self%field_times))])
       call self%describe(self%field_var, "kPa", "film pressure, on the scale of inlet and outlet pressure")
       call self%note(nf90_put_att(self%file, self%field_var, "mesh", "film_mesh"), "film_pressure_kpa")
       call self%note(nf90_put_att(self%file, self%field_var, "location", "node"), "film_pressure_kpa")
@@ -353,7 +355,8 @@ contains
          return
       end if
       call self%note(nf90_def_var(self%file, name, kind, dims, var, chunksizes=chunk, cache_size=cache_size, &
-         & cache_nelems=509, cache_preemption=100), name)
+         & cache_nelems=509, cache_preemption=100, deflate_level=self%compress, &
+         & shuffle=self%compress > 0 .and. any(kind == [nf90_double, nf90_int])), name)
       if (kind /= nf90_double) return
       nan = ieee_value(nan, ieee_quiet_nan)
       call self%note(nf90_def_var_fill(self%file, var, 0, nan), name)
@@ -412,17 +415,19 @@ contains
       end associate
    end subroutine put_input
 
-   !> Only the messages there are: chunks without one take no room in the file.
+   !> Only chunks with a message in them: those without one take no room in the file.
    subroutine put_messages(self, message, first)
       class(netcdf_writer), intent(inout) :: self
       type(text_type), intent(in) :: message(:)
-      integer, intent(in) :: first
-      integer :: i
+      integer, intent(in) :: first                !! number of the first case
+      integer :: i, top, k
 
-      do i = 1, size(message)
-         if (len(message(i)%s) == 0) cycle
-         call self%note(nf90_put_var(self%file, self%message_var, padded(message, [i], message_length), &
-            & [1, first + i - 1], [message_length, 1]), "message")
+      i = 1
+      do while (i <= size(message))
+         top = min(size(message), i + chunk_messages - 1 - modulo(first + i - 2, chunk_messages))
+         if (any([(len(message(k)%s) > 0, k=i, top)])) call self%note(nf90_put_var(self%file, self%message_var, &
+            & padded(message, [(k, k=i, top)], message_length), [1, first + i - 1], [message_length, top - i + 1]), "message")
+         i = top + 1
       end do
    end subroutine put_messages
 
@@ -434,10 +439,10 @@ contains
       character(len=length), allocatable :: same(:)
       integer :: i, n
 
-      allocate(same(size(chosen)))
+      allocate(same(size(chosen)), source=repeat(achar(0), length))
       do i = 1, size(chosen)
          n = min(len(text(chosen(i))%s), length)
-         same(i) = text(chosen(i))%s(:n)//repeat(achar(0), length - n)
+         same(i)(:n) = text(chosen(i))%s(:n)
       end do
    end function padded
 
@@ -451,22 +456,65 @@ contains
       end do
    end function longest_word
 
-   !> About how large the file will be, messages left out; rather more than less.
+   !> So many, or the next whole number of chunks where there is more than one.
+   pure integer(i8) function in_chunks(n, chunk)
+      integer(i8), intent(in) :: n
+      integer, intent(in) :: chunk
+
+      in_chunks = n
+      if (n > chunk) in_chunks = chunk*((n + chunk - 1)/chunk)
+   end function in_chunks
+
+   !> Times and cases in a chunk of a history of so many times, if there are as many.
+   pure function trace_chunk(times) result(chunk)
+      integer, intent(in) :: times
+      integer :: chunk(2)
+      integer :: pieces
+
+      pieces = (times*bytes_real + chunk_bytes - 1)/chunk_bytes
+      chunk(1) = (times + pieces - 1)/pieces
+      chunk(2) = max(1, chunk_bytes/(bytes_real*chunk(1)))
+   end function trace_chunk
+
+   !> Cases in a chunk of film fields of so many numbers a case, if there are as many.
+   pure integer function field_chunk(samples) result(chunk)
+      integer(i8), intent(in) :: samples
+
+      chunk = int(max(1_i8, chunk_bytes/(bytes_real*samples)))
+   end function field_chunk
+
+   !> Numbers in the histories and film fields of one case.
+   pure integer(i8) function sample_values(manifest) result(n)
+      type(manifest_type), intent(in) :: manifest
+
+      n = manifest%traces*size(manifest%time, kind=i8) + size(manifest%fields%time, kind=i8)*size(manifest%fields%x)
+   end function sample_values
+
+   !> About how large the file will be, messages left out; rather more than less, but for half where it is compressed.
    pure integer(i8) function expected_size(manifest) result(bytes)
       type(manifest_type), intent(in) :: manifest
-      integer(i8) :: case_bytes, cases
-      integer :: i
+      integer(i8) :: case_bytes, cases, samples
+      integer :: i, chunk(2)
 
-      cases = manifest%cases
-      if (cases > chunk_cases) cases = chunk_cases*((cases + chunk_cases - 1)/chunk_cases)
-      case_bytes = 6 + bytes_real*(n_measures + n_facts + manifest%traces*size(manifest%time, kind=i8) &
-         & + size(manifest%fields%time, kind=i8)*size(manifest%fields%x))
+      cases = in_chunks(manifest%cases, chunk_cases)
+      case_bytes = 6 + bytes_real*(n_measures + n_facts)
       do i = 1, size(manifest%input)
          case_bytes = case_bytes + bytes_real
          if (manifest%input(i)%kind == kind_text) case_bytes = case_bytes + longest_word(manifest%input(i)%word)
       end do
-      bytes = cases*case_bytes + bytes_real*size(manifest%time) + len(manifest%deck) + len(manifest%effective) &
-         & + fixed_bytes + cases/chunk_cases*2048
+      bytes = cases*case_bytes
+      if (size(manifest%time) > 0) then
+         chunk = trace_chunk(size(manifest%time))
+         samples = in_chunks(size(manifest%time, kind=i8), chunk(1))*in_chunks(manifest%cases, chunk(2))
+         bytes = bytes + bytes_real*manifest%traces*samples
+      end if
+      if (size(manifest%fields%x) > 0) then
+         samples = size(manifest%fields%time, kind=i8)*size(manifest%fields%x)
+         bytes = bytes + bytes_real*samples*in_chunks(manifest%cases, field_chunk(samples))
+      end if
+      if (manifest%compress > 0) bytes = bytes/2
+      bytes = bytes + bytes_real*size(manifest%time) + len(manifest%deck) + len(manifest%effective) + fixed_bytes &
+         & + cases/chunk_cases*2048
    end function expected_size
 
 end module rv_results_netcdf

@@ -6,6 +6,7 @@ module rv_row_text
    private
    public :: row_text
 
+   integer(i8), parameter :: least_room = 4096
    integer, parameter :: number_room = 40   !! what rv_decimal may write, more than a number is long
 
    !> bytes(:used) is the text.
@@ -83,7 +84,7 @@ contains
       integer(i8), intent(in) :: more          !! bytes to come
       character(len=:), allocatable :: larger
 
-      if (.not. allocated(self%bytes)) allocate(character(len=1048576) :: self%bytes)
+      if (.not. allocated(self%bytes)) allocate(character(len=max(least_room, more)) :: self%bytes)
       if (self%used + more <= len(self%bytes, i8)) return
       allocate(character(len=2*(self%used + more)) :: larger)
       larger(:self%used) = self%bytes(:self%used)

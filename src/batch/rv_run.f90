@@ -13,7 +13,8 @@ module rv_run
    use rv_manifest, only : manifest_type
    use rv_merge, only : merge_parts
    use rv_monitor, only : monitor_type
-   use rv_results_folder, only : log_name, results_folder, to_merge, to_run, to_run_slice
+   use rv_room, only : check_room_for_run
+   use rv_results_folder, only : csv_name, log_name, results_folder, to_merge, to_run, to_run_slice
    use rv_run_plan, only : check_parts, plan_type, prepare_folder, read_manifest
    use rv_run_terms, only : run_options, run_outcome
    use rv_version, only : code_version
@@ -58,6 +59,7 @@ contains
       plan%identity = plan%manifest%identity()
       outcome%processes = crew%processes
       outcome%blocks = plan%manifest%blocks
+      outcome%has_csv = plan%manifest%has_csv
       outcome%own_blocks = options%block_total(outcome%blocks)
       outcome%threads = options%threads
       if (options%threads == 0) outcome%threads = omp_get_max_threads()
@@ -101,6 +103,7 @@ contains
             & //", cases: "//to_text(plan%manifest%cases)//", blocks: "//to_text(plan%manifest%blocks) &
             & //", finished before: "//to_text(outcome%finished_blocks)//", processes: "//to_text(outcome%processes) &
             & //", threads of each: "//to_text(outcome%threads))
+         call check_disk(folder, options, plan%manifest, outcome, error)
       else
          ! a process that sees another folder or another deck has to say so before it writes parts
          call check_parts(folder, plan, error)
@@ -120,6 +123,20 @@ contains
       end if
       call crew%share(error)
    end subroutine run_and_merge
+
+   !> Room for the parts that are left and, where this run writes them, the results?
+   subroutine check_disk(folder, options, manifest, outcome, error)
+      type(results_folder), intent(in) :: folder
+      type(run_options), intent(in) :: options
+      type(manifest_type), intent(in) :: manifest
+      type(run_outcome), intent(in) :: outcome
+      type(error_type), allocatable, intent(out) :: error
+      integer :: left
+
+      left = min(outcome%own_blocks, outcome%blocks - outcome%finished_blocks)
+      call check_room_for_run(folder%path, manifest, real(left, wp)/real(max(1, outcome%blocks), wp), &
+         & .not. options%is_slice(), error)
+   end subroutine check_disk
 
    !> What the counters of the crew say.
    subroutine sum_up(crew, outcome)
@@ -177,6 +194,7 @@ contains
       if (.not. allocated(error)) then
          outcome%blocks = manifest%blocks
          outcome%threads = threads
+         outcome%has_csv = manifest%has_csv
          if (threads == 0) outcome%threads = omp_get_max_threads()
          call check_all_there(folder, manifest%blocks, error)
          if (.not. allocated(error)) call merge_parts(folder, manifest, outcome%threads, monitor, &
@@ -252,7 +270,8 @@ contains
          call log_line(folder, outcome, "stopped on request, "//rate)
       else
          call log_line(folder, outcome, "finished, "//rate//", cases failed: " &
-            & //to_text(outcome%tally%failed)//" of "//to_text(outcome%tally%cases))
+            & //to_text(outcome%tally%failed)//" of "//to_text(outcome%tally%cases) &
+            & //repeat(", no "//csv_name, merge(0, 1, outcome%has_csv)))
       end if
    end subroutine log_end
 

@@ -35,6 +35,7 @@ module rv_run_terms
       logical :: was_complete = .false.!! the results were there already
       logical :: unlocked = .false.    !! this file system has no locks
       logical :: logged = .true.       !! run.log could be written
+      logical :: has_csv = .true.      !! there is a summary.csv, not results.nc alone
    end type run_outcome
 
 contains

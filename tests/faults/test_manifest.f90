@@ -33,6 +33,8 @@ contains
          & .and. all(abs(back%fields%time - manifest%fields%time) <= 0.0_wp))
       call suite%equal("nodes along a ray", back%fields%rings, 3)
       call suite%equal("values in a trace sample", back%traces, 10)
+      call suite%equal("compression", back%compress, 7)
+      call suite%true("no summary", .not. back%has_csv)
       call suite%equal("faces of two rays of three nodes", size(back%fields%faces(), 2), 2)
       call suite%text("no difference", manifest%difference(back), "")
       call suite%true("one identity", back%identity() == manifest%identity())
@@ -93,6 +95,8 @@ contains
       manifest%blocks = 2
       allocate(manifest%time(7), manifest%input(3))
       manifest%traces = 10
+      manifest%compress = 7
+      manifest%has_csv = .false.
       manifest%fields%time = [19.5_wp, 20.0_wp]
       manifest%fields%x = [(1.0_wp/i, i=1, 6)]
       manifest%fields%y = [(0.1_wp*i, i=1, 6)]

@@ -29,6 +29,10 @@ program test_results
    call make_part(part(2), 4, 5)
    call test_csv()
    call test_netcdf()
+   manifest%compress = 6
+   call test_netcdf()
+   manifest%compress = 0
+   call test_messages()
    call test_origin()
    call test_no_place()
    call suite%finish()
@@ -118,6 +122,48 @@ contains
       call suite%true("libraries", index(attribute(file, "library_versions"), "SUNDIALS ") == 1)
       call suite%equal("close it", nf90_close(file), nf90_noerr)
    end subroutine test_netcdf
+
+   !> Messages here and there among many cases, in blocks whose ends are not those of anything in the file.
+   subroutine test_messages()
+      integer, parameter :: many = 1000, step = 143
+      type(netcdf_writer) :: writer
+      type(manifest_type) :: large
+      type(part_type) :: one
+      type(error_type), allocatable :: error
+      character(len=200) :: message(many)
+      integer :: first, file, wrong, i
+
+      large = manifest
+      large%cases = many
+      call writer%create("messages.nc", large, error)
+      do first = 1, many, step
+         call make_part(one, first, min(first + step - 1, many))
+         do i = 1, size(one%result%status)
+            one%result%message(i)%s = told(first + i - 1)
+         end do
+         call writer%put(one, error)
+         call suite%no_error("put cases from "//to_text(first), error)
+      end do
+      call writer%close(error)
+      call suite%equal("open it", nf90_open("messages.nc", nf90_nowrite, file), nf90_noerr)
+      call suite%equal("get message", nf90_get_var(file, number_of(file, "message"), message), nf90_noerr)
+      wrong = 0
+      do i = 1, many
+         if (message(i)(:index(message(i)//achar(0), achar(0)) - 1) /= told(i)) wrong = wrong + 1
+      end do
+      call suite%equal("wrong messages", wrong, 0)
+      call suite%equal("close it", nf90_close(file), nf90_noerr)
+   end subroutine test_messages
+
+   !> What a case says: most say nothing, one says too much.
+   function told(i) result(text)
+      integer, intent(in) :: i
+      character(len=:), allocatable :: text
+
+      text = ""
+      if (mod(i, 90) == 1 .or. abs(i - 500) < 3) text = "case "//to_text(i)
+      if (i == 700) text = repeat("x", 200)
+   end function told
 
    subroutine test_origin()
       type(manifest_type) :: origin
