@@ -34,6 +34,7 @@ class Contender:
     rtol: float = float("nan")
     error: float = float("nan")  # largest relative one of fall and closing time
     seconds: list[float] = field(default_factory=list)  # of one round, each time it was measured
+    slow_start: bool = False  # compiling takes longer than what is measured
 
     def errors_at(self, rtol: float) -> float:
         """Largest error with a tolerance; infinite when the cases cannot be solved with it."""
@@ -52,6 +53,11 @@ class Contender:
     def rate(self) -> float:
         """Cases per second, of the median round."""
         return len(self.cases) / median(self.seconds)
+
+    def over(self, other: Contender) -> float:
+        """How many times as fast as another: the median of rounds that ran one after the other."""
+        pairs = zip(self.seconds, other.seconds, strict=False)  # a slow starter has fewer rounds
+        return median(theirs / ours for ours, theirs in pairs) * len(self.cases) / len(other.cases)
 
     @property
     def span(self) -> tuple[float, float]:
@@ -146,18 +152,31 @@ class Bench:
         """CVODE on these cases."""
         return self.peer(self.cvode_name, [self.peers / "cvode"], cases)
 
-    def all_peers(self, scipy: tuple[str, ...], few: int) -> list[Contender]:
-        """Those that were built; SciPy on `few` of the cases. What is left out is told."""
+    def all_peers(self, scipy: tuple[str, ...], few: int, python_peers: bool) -> list[Contender]:
+        """Those that were set up; SciPy on `few` of the cases. What is left out is told."""
         sample = spread_sample(min(few, len(self.some)))
         rows = []
-        for name, word in ((self.odeint_name, "odeint"), (self.cvode_name, "cvode")):
-            if (self.peers / word).is_file():
-                rows.append(self.peer(name, [self.peers / word], self.some))
+        for name, needs, words in self.wanted_peers()[: 4 if python_peers else 2]:
+            if needs.is_file():
+                rows.append(self.peer(name, words, self.some))
+                rows[-1].slow_start = name.startswith("diffrax")
             else:
-                print(f"benchmark: {name} is left out: {self.peers / word} is not there", file=sys.stderr)
+                print(f"benchmark: {name} is left out: {needs} is not there", file=sys.stderr)
         for method in scipy:
             rows.append(self.peer(f"SciPy {method}", [sys.executable, PEERS / "scipy_peer.py", method], sample))
         return rows
+
+    def wanted_peers(self) -> list[tuple[str, Path, list[object]]]:
+        """Name, the file without which there is none, words of its command; those in Python last."""
+        odeint, cvode = self.peers / "odeint", self.peers / "cvode"
+        python, ready = self.peers / "venv" / "bin" / "python", self.peers / "venv" / "ready"
+        one_core = ["taskset", "--cpu-list", str(max(os.sched_getaffinity(0)))]  # XLA takes all there are
+        return [
+            (self.odeint_name, odeint, [odeint]),
+            (self.cvode_name, cvode, [cvode]),
+            ("numbalsoda LSODA", ready, [python, PEERS / "numbalsoda_peer.py"]),
+            ("diffrax Dopri5, vmap", ready, [*one_core, python, PEERS / "diffrax_peer.py"]),
+        ]
 
 
 def run(words: list[object]) -> str:

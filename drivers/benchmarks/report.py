@@ -82,7 +82,7 @@ def draw_work_precision(path: Path, lines: dict[str, list[tuple[float, float]]],
         ours = name.startswith("reedvalve")
         axes.loglog(*zip(*points, strict=True), marker=markers[i % len(markers)], markersize=4,
                     linewidth=2.0 if ours else 1.0, linestyle="-" if ours else "--", label=name)  # fmt: skip
-    axes.axvline(limit, color="0.7", linewidth=1.0, zorder=0)
+    axes.axvline(limit, color="0.3", linestyle=":", label=f"the limit, {limit:g}")
     axes.invert_xaxis()
     axes.set_xlabel("largest relative error of fall and closing time")
     axes.set_ylabel("cases per second, one core")

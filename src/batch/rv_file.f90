@@ -37,6 +37,7 @@ module rv_file
       procedure :: put
       procedure :: put_text
       procedure :: get
+      procedure :: start_sync
       procedure :: sync
       procedure :: close => close_file
       procedure, private :: flush_buffer
@@ -67,6 +68,10 @@ module rv_file
          import :: c_int
          integer(c_int), value :: fd
       end function c_sync
+      subroutine c_start_sync(fd) bind(C, name="rv_posix_start_sync")
+         import :: c_int
+         integer(c_int), value :: fd
+      end subroutine c_start_sync
       integer(c_int) function c_close(fd) bind(C, name="rv_posix_close")
          import :: c_int
          integer(c_int), value :: fd
@@ -164,6 +169,13 @@ contains
       end if
       self%crc = crc32_of(data, size, self%crc)
    end subroutine get
+
+   !> Have what is written on its way to the disk, by whatever descriptor of the file it was written; does not wait.
+   subroutine start_sync(self)
+      class(file_type), intent(in) :: self
+
+      if (self%fd >= 0) call c_start_sync(self%fd)
+   end subroutine start_sync
 
    !> Wait until everything written is on the disk.
    subroutine sync(self, error)

@@ -22,10 +22,13 @@ module rv_merge
    private
    public :: merge_parts
 
+   integer, parameter :: blocks_on_their_way = 8   !! are sent to the disk together
+
    !> Both results in the making.
    type :: writers_type
       type(netcdf_writer) :: netcdf
       type(csv_writer) :: csv
+      type(file_type) :: netcdf_bytes, csv_bytes   !! the same files once more, to have them on their way to the disk
       logical :: has_csv = .true.
    end type writers_type
 
@@ -90,11 +93,15 @@ contains
       call writers%netcdf%create(folder%file(netcdf_name//new_suffix), manifest, error)
       writers%has_csv = manifest%has_csv
       if (manifest%has_csv .and. .not. allocated(error)) call writers%csv%create(folder%file(csv_name//new_suffix), manifest, error)
+      if (.not. allocated(error)) call writers%netcdf_bytes%open_old(folder%file(netcdf_name//new_suffix), error)
+      if (manifest%has_csv .and. .not. allocated(error)) call writers%csv_bytes%open_old(folder%file(csv_name//new_suffix), error)
       if (allocated(error)) return
       !$omp parallel num_threads(min(threads, max(1, manifest%blocks))) default(none) &
       !$omp & shared(folder, manifest, identity, writers, monitor, state)
       call work(folder, manifest%blocks, identity, writers, monitor, state)
       !$omp end parallel
+      call writers%netcdf_bytes%close()
+      call writers%csv_bytes%close()
       tally = state%tally
       stopped = state%stopped
       call move_alloc(state%error, error)
@@ -122,6 +129,9 @@ contains
          !$omp ordered
          call put_load(folder, load, writers, monitor, state)
          !$omp end ordered
+         if (modulo(block, blocks_on_their_way) > 0) cycle
+         call writers%netcdf_bytes%start_sync()
+         call writers%csv_bytes%start_sync()
       end do
       !$omp end do
    end subroutine work

@@ -21,6 +21,7 @@ int rv_posix_open(const char *path, int mode, int *fd);
 int rv_posix_write(int fd, const void *data, size_t size);
 int rv_posix_read(int fd, void *data, size_t size, size_t *got);
 int rv_posix_sync(int fd);
+void rv_posix_start_sync(int fd);
 int rv_posix_close(int fd);
 int rv_posix_lock(const char *path, const char *holder, int shared, int *fd, int *state);
 void rv_posix_unlock(const char *path, int fd);

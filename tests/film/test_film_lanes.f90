@@ -18,6 +18,7 @@ program test_film_lanes
    implicit none
    type(suite_type) :: suite
    real(wp), parameter :: gap = 0.05_wp*mm
+   real(wp), parameter :: thicker(3) = [1.0_wp, 0.6_wp, 1.5_wp]   !! liquids of the lanes side by side
 
    call with_elongation(0.0_wp)
    call with_elongation(0.65_wp)
@@ -68,6 +69,7 @@ contains
       do k = 1, 3
          valve(k) = paper_case(reed, gap*merge(1.0_wp, real(k, wp), beta > 0.0_wp), 10.0_wp*kpa*real(k, wp))
          valve(k)%outlet = 1.0_wp*kpa*real(k, wp)
+         valve(k)%viscosity = oil%viscosity*thicker(k)
       end do
       call new_film_table(table, reed, gap, error)
       if (allocated(error)) error stop "the paper's film table is refused"
@@ -182,7 +184,7 @@ contains
    subroutine check_equilibrium(name, lanes)
       character(len=*), intent(in) :: name
       class(valve_lanes), intent(inout) :: lanes
-      real(wp), parameter :: inlet(3) = [1.0_wp, 0.1_wp, 25.0_wp]
+      real(wp), parameter :: inlet(3) = [1.0_wp, 0.1_wp, 25.0_wp], too_much(4) = [7.5_wp, 30.0_wp, 300.0_wp, 1.0e5_wp]
       real(wp), dimension(lanes%width, lanes%dofs) :: q, a, free
       logical :: found(lanes%width), all_found
       real(wp) :: off
@@ -203,8 +205,19 @@ contains
       call suite%close("without pressure at rest on u = 0", maxval(abs(q)), 0.0_wp, 0.0_wp, 0.0_wp)
       call lanes%equilibrium(0.0_wp, 0.1_wp, q, found)
       call suite%true("a slight pressure the other way has one below u = 0", all(found) .and. all(q(:, 1) < 0.0_wp))
-      call lanes%equilibrium(0.0_wp, 100.0_wp, q, found)
-      call suite%true("a large one closes the film: none", .not. any(found))
+      associate (most => 6.5_wp*kpa/gap/maxval(lanes%outlet/lanes%gap))
+         call lanes%equilibrium(0.0_wp, most, q, found)
+         off = minval(matmul(q, lanes%tip)/lanes%gap)
+         call suite%true("one presses a tip almost on its seat, to "//to_text(off, 3)//" gaps", all(found) .and. off > -1.0_wp &
+            & .and. off < -0.85_wp)
+         call lanes%acceleration(0.0_wp, most, q, 0.0_wp*q, a, closed)
+         call lanes%acceleration(0.0_wp, most, 0.0_wp*q, 0.0_wp*q, free, closed)
+         call suite%close("acceleration left there", maxval(abs(a)/maxval(abs(free))), 0.0_wp, 0.0_wp, 1.0e-10_wp)
+      end associate
+      do k = 1, size(too_much)
+         call lanes%equilibrium(0.0_wp, too_much(k)*kpa/gap/minval(lanes%outlet/lanes%gap), q, found)
+         call suite%true("a larger one closes the film: none", .not. any(found))
+      end do
    end subroutine check_equilibrium
 
    !> Tolerances stay above zero without pressure, and follow the pressure below ten gaps.
@@ -216,6 +229,7 @@ contains
       call lanes%scales(spread(0.0_wp, 1, lanes%width), q, v)
       call suite%true(name//": scales without pressure above zero", all(q > 0.0_wp) .and. all(v > 0.0_wp))
       call lanes%scales(spread(1.0_wp*kpa, 1, lanes%width), q, v)
+      call suite%true("velocities go with displacements by the wet frequency, 900 Hz", all(v/q > 1.0e3_wp .and. v/q < 1.0e4_wp))
       call lanes%scales(spread(2.0_wp*kpa, 1, lanes%width), q_twice, v_twice)
       call suite%close("they follow the pressure", maxval(abs(q_twice/q - 2.0_wp) + abs(v_twice/v - 2.0_wp)), 0.0_wp, 0.0_wp, &
          & 1.0e-12_wp)
@@ -229,16 +243,18 @@ contains
       class(valve_lanes), intent(inout) :: lanes
       real(wp), dimension(lanes%width, lanes%dofs) :: q, a
       real(wp), dimension(lanes%width, lanes%dofs, lanes%dofs) :: a_q, a_v
-      integer :: closed
+      integer :: closed, w
 
       q = 0.0_wp
       call lanes%acceleration(1.0_wp, 0.0_wp, q, q, a, closed)
       call suite%equal(name//": an open film", closed, 0)
-      q(lanes%width, 1) = -1.01_wp*lanes%gap(lanes%width)
-      call lanes%acceleration(1.0_wp, 0.0_wp, q, 0.0_wp*q, a, closed)
-      call suite%equal("the last lane in its seat", closed, lanes%width)
-      call lanes%linearise(1, lanes%width, 1.0_wp, 0.0_wp, q, 0.0_wp*q, a, a_q, a_v, closed)
-      call suite%equal("linearised", closed, lanes%width)
+      do w = lanes%width, 1, -1
+         q(w, 1) = -1.01_wp*lanes%gap(w)
+         call lanes%acceleration(1.0_wp, 0.0_wp, q, 0.0_wp*q, a, closed)
+         call suite%equal("lane "//to_text(w)//" the first in its seat", closed, w)
+         call lanes%linearise(1, lanes%width, 1.0_wp, 0.0_wp, q, 0.0_wp*q, a, a_q, a_v, closed)
+         call suite%equal("linearised", closed, w)
+      end do
    end subroutine check_closed
 
    !> A silent lane feels nothing; its neighbours do not notice.
@@ -247,6 +263,8 @@ contains
       class(valve_lanes), intent(inout) :: lanes
       real(wp), dimension(lanes%width, lanes%dofs) :: q, v, a, before
       real(wp), dimension(lanes%width, lanes%dofs, lanes%dofs) :: a_q, a_v
+      real(wp) :: force, rate
+      logical :: found(lanes%width)
       integer :: closed, last
 
       last = lanes%width
@@ -260,7 +278,13 @@ contains
       call suite%close("no acceleration, no derivative", maxval(abs(a(last, :))) + maxval(abs(a_q(last, :, :))) &
          & + maxval(abs(a_v(last, :, :))), 0.0_wp, 0.0_wp, 0.0_wp)
       call suite%true("the others as before", .not. any(abs(a(:last - 1, :) - before(:last - 1, :)) > 0.0_wp))
-      call suite%true("no film to measure", .not. lanes%has_film(last))
+      call lanes%film_force(last, 1.0_wp, 1.0_wp, q(last, :), 0.1_wp + v(last, :), v(last, :), force, rate)
+      call suite%true("no film to measure", .not. lanes%has_film(last) .and. abs(force) + abs(rate) <= 0.0_wp)
+      call lanes%equilibrium(1.0_wp, 0.0_wp, q, found)
+      call suite%true("no equilibrium", .not. found(last) .and. all(found(:last - 1)))
+      q(last, 1) = -2.0_wp*gap
+      call lanes%acceleration(1.0_wp, 0.0_wp, q, v, a, closed)
+      call suite%equal("no seat", closed, 0)
    end subroutine check_silence
 
    !> M a = drop (int_hole phi + land) - (C_a + C) v - K q, from the valve's own matrices.
@@ -303,7 +327,7 @@ contains
       call lanes%acceleration(1.0_wp, 0.0_wp, q, v, a, closed)
       do k = 1, 3
          valve = paper_case(reed, gap*real(k, wp), 10.0_wp*kpa*real(k, wp))
-         call reed%static_film%solve(valve%gap, oil%viscosity, q(k, :), state, error)
+         call reed%static_film%solve(valve%gap, oil%viscosity*thicker(k), q(k, :), state, error)
          force = valve%inlet*(reed%static_hole + state%land(1)) - valve%static_stiffness*q(k, 1) &
             & - (valve%static_damping + state%damping(1, 1))*v(k, 1)
          off = max(off, abs(a(k, 1)*(valve%static_mass + valve%static_added_mass)/force - 1.0_wp))
