@@ -135,14 +135,14 @@ contains
    subroutine wait_for(request)
       type(MPI_Request), intent(inout) :: request
       logical :: done
-      real(wp) :: pause
+      real(wp) :: rest
 
-      pause = shortest_nap
+      rest = shortest_nap
       do
          call MPI_Test(request, done, MPI_STATUS_IGNORE)
          if (done) return
-         call nap(pause)
-         pause = min(2.0_wp*pause, longest_nap)
+         call nap(rest)
+         rest = min(2.0_wp*rest, longest_nap)
       end do
    end subroutine wait_for
 

@@ -66,28 +66,23 @@ if [ $got = 2 ]; then pass "a rank with another deck: exit status 2"; else wrong
 holds "the rank is named" grep -q "rank 1 on .*: cannot resume the run .*the deck was edited" err.txt
 fails "nothing is left of it" test -e split
 
-# stopped by the scheduler's words to mpirun, and by a signal to one rank
-sweep_deck "$(slow_count 1200)" >slow.nml
-program=$own
-expect 0 'none failed' run slow.nml -o whole
-export OMPI_MCA_odls_base_sigkill_timeout=3   # [s], Open MPI's patience behind a SIGTERM
+# stopped by the scheduler's words to mpiexec, and by a signal to one rank; a long run of short blocks, never finished here
+sweep_deck 1000 | sed 's/block_size = 1000/block_size = 20/' >long.nml
 for signal in TERM USR1 INT; do
-   start_ranks 3 slow.nml part_$signal
-   while kill -0 $job 2>/dev/null && [ ! -e part_$signal/parts/block_000000001.part ]; do :; done
-   # held still, lest they be done before mpiexec has passed the word on
-   for pid in $(cat pid.*); do kill -STOP "$pid"; done
+   if [ $signal = TERM ]; then patience=3; else patience=0; fi
+   export OMPI_MCA_odls_base_sigkill_timeout=$patience
+   start_ranks 3 long.nml part_$signal
+   while kill -0 $job 2>/dev/null && [ ! -e part_$signal/parts/block_000000001.part ]; do sleep 0.01; done
    if [ $signal = INT ]; then kill -INT "$(cat pid.1)"; else kill -$signal $job; fi
-   sleep 0.2
-   for pid in $(cat pid.*); do kill -CONT "$pid"; done
    wait $job
    got=$?
    if [ $got = 1 ]; then pass "$signal: exit status 1"; else wrong "$signal: exit status $got instead of 1"; cat err.txt; fi
-   holds "it says how to go on" grep -q "go on with: reedvalve run slow.nml -o part_$signal --resume" err.txt
-   fails "not all was done" test -e part_$signal/results.nc
-   program=$own
-   echo "  $(ls part_$signal/parts | grep -c 'part$') of 16 blocks are kept"
-   expect 0 'none failed' run slow.nml -o part_$signal --resume
-   same whole part_$signal
+   holds "it says how to go on" grep -q "go on with: reedvalve run long.nml -o part_$signal --resume" err.txt
+   holds "the log knows" grep -q 'stopped on request' part_$signal/run.log
+   fails "the lock is gone" test -e part_$signal/run.lock
+   kept=$(ls part_$signal/parts | grep -c 'part$')
+   if [ "$kept" -lt 800 ]; then pass "$kept of 800 blocks are kept"; else wrong "nothing is left to resume"; fi
+   fails "no half of a part is left" sh -c "ls part_$signal/parts | grep new"
 done
 
 # a disk that is full for all; every case has a message, which no estimate counts, so it fills up in the middle of a run

@@ -6,6 +6,7 @@ mpi=${3:-}
 mpiexec=${4:-}
 # Open MPI asks for leave to run as root and to have more ranks than processors.
 export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
+export OMPI_MCA_odls_base_sigkill_timeout=0   # [s], its patience with ranks that outlive one that failed
 export OMPI_MCA_rmaps_base_oversubscribe=1 PRTE_MCA_rmaps_default_mapping_policy=:oversubscribe
 
 # with_ranks N: from now on $program is the MPI program on N ranks
