@@ -10,7 +10,8 @@ module rv_block
    use rv_error, only : error_type
    use rv_case_facts, only : case_facts, add_note
    use rv_cases, only : deck_type
-   use rv_columns, only : column_type, measure_columns, fact_columns, trace_columns, n_facts, n_traces, n_lumped_traces
+   use rv_columns, only : column_type, measure_columns, fact_columns, trace_columns, n_facts, n_traces, n_lumped_traces, &
+      & fact_lowest_pressure, fact_method
    use rv_film_case, only : planform_cache, planform_key, n_planform, mesh_nodes
    use rv_keys, only : n_keys, from_si, to_si, model_film, model_film_table, key_film_mesh, key_run_model, &
       & key_run_start, key_run_t_end_ms, key_run_traces, key_run_trace_dt_ms, key_run_block_size, key_film_gap_mm, &
@@ -156,9 +157,10 @@ contains
       type(block_result), intent(inout) :: result
       integer :: traces
 
+      facts%fact(fact_method) = merge(2.0_wp, 1.0_wp, outcome%is_explicit)
       associate (lowest => outcome%lowest_pressure(lane))
          if (lowest < huge(lowest)) then
-            facts%fact(n_facts) = lowest
+            facts%fact(fact_lowest_pressure) = lowest
             if (lowest < value(key_film_vapour_pressure_kpa)) then
                facts%warnings = ior(facts%warnings, warn_cavitation)
                call add_note(facts, "the film's pressure falls to "//to_text(1.0e-3_wp*lowest, 4) &

@@ -32,7 +32,7 @@ contains
       logical, intent(in) :: in_range
 
       facts%fact = [stiffness, mass, added_mass, added_damping, reynolds, &
-         & sqrt(stiffness/(mass + added_mass))/(2.0_wp*pi), ieee_value(1.0_wp, ieee_quiet_nan)]
+         & sqrt(stiffness/(mass + added_mass))/(2.0_wp*pi), spread(ieee_value(1.0_wp, ieee_quiet_nan), 1, 2)]
       if (.not. all(ieee_is_finite(facts%fact([1, 2, 3, 4, 6])))) then
          call fail(facts%error, rv_bad_input, "stiffness, mass or load is not a finite number for these data")
          return

@@ -5,8 +5,10 @@ module rv_columns
    implicit none
    private
    public :: column_type, measure_columns, fact_columns, trace_columns, n_facts, n_traces, n_lumped_traces
+   public :: fact_lowest_pressure, fact_method
 
-   integer, parameter :: n_facts = 7   !! numbers of the model behind a case
+   integer, parameter :: n_facts = 8   !! numbers of the model behind a case
+   integer, parameter :: fact_lowest_pressure = 7, fact_method = 8   !! those known only after the run
    integer, parameter :: n_traces = 10  !! values in a trace sample, those of the film models last
    integer, parameter :: n_lumped_traces = 5
 
@@ -51,7 +53,8 @@ contains
          & column_type("reynolds", "1", 1.0_wp, "Reynolds number at which the hydrodynamic function was taken"), &
          & column_type("wet_frequency_hz", "Hz", 1.0_wp, "undamped natural frequency in the fluid, without film"), &
          & column_type("lowest_film_kpa", "kPa", 1.0e-3_wp, &
-         & "lowest pressure in the film, at the ends of the steps (film models)")]
+         & "lowest pressure in the film, at the ends of the steps (film models)"), &
+         & column_type("solver_method", "1", 1.0_wp, "how the case was integrated: 1 implicit, 2 explicit")]
    end function fact_columns
 
    !> The traces.

@@ -26,7 +26,7 @@ module rv_keys
       & key_film_vapour_pressure_kpa, key_film_fields_ms
    public :: key_pressure_kind, key_pressure_inlet_kpa, key_pressure_outlet_kpa, key_pressure_period_ms, &
       & key_pressure_transition_ms, key_pressure_file, key_pressure_event_ms
-   public :: key_solver_rtol, key_solver_max_steps, key_solver_width
+   public :: key_solver_rtol, key_solver_method, key_solver_max_steps, key_solver_width
    public :: key_sweep_key, key_sweep_values, key_sweep_from, key_sweep_to, key_sweep_count, key_sweep_scale
    public :: key_design_file
    public :: model_traditional, model_squeeze, model_film, model_film_table, load_by_model
@@ -46,7 +46,7 @@ module rv_keys
       enumerator :: key_film_edge_elongation, key_film_vapour_pressure_kpa, key_film_fields_ms
       enumerator :: key_pressure_kind, key_pressure_inlet_kpa, key_pressure_outlet_kpa, key_pressure_period_ms
       enumerator :: key_pressure_transition_ms, key_pressure_file, key_pressure_event_ms
-      enumerator :: key_solver_rtol, key_solver_max_steps, key_solver_width
+      enumerator :: key_solver_rtol, key_solver_method, key_solver_max_steps, key_solver_width
       enumerator :: key_sweep_key, key_sweep_values, key_sweep_from, key_sweep_to, key_sweep_count
       enumerator :: key_sweep_scale, key_design_file
    end enum
@@ -91,6 +91,7 @@ module rv_keys
    logical, parameter :: with_film(n_models) = [.false., .true., .true., .true.]
    logical, parameter :: only_film(n_models) = [.false., .false., .true., .true.]
    logical, parameter :: only_modes(n_models) = [.false., .false., .true., .false.]
+   logical, parameter :: without_modes(n_models) = [.true., .true., .false., .true.]
    logical, parameter :: only_lumped(n_models) = [.true., .true., .false., .false.]
 
    type(key_type), parameter :: run_keys(9) = [ &
@@ -188,12 +189,15 @@ module rv_keys
       & key_type("pressure", "event_ms", real_key, "ms", milli, "", -1.0e6_wp, 1.0e6_wp, &
       & "when closing starts, for the measures; default: the falling ramp's start; a trace needs it")]
 
-   type(key_type), parameter :: solver_keys(3) = [ &
+   type(key_type), parameter :: solver_keys(4) = [ &
       & key_type("solver", "rtol", real_key, "", one, "1.0e-6", 1.0e-12_wp, 1.0e-2_wp, &
       & "relative tolerance of the time integration"), &
+      & key_type("solver", "method", choice_key, "", one, "implicit", none, none, &
+      & "implicit: for any film; explicit: faster where the film is not stiff; auto: explicit where stiffness allows", &
+      & choices="implicit explicit auto", sweepable=.false., for_model=without_modes), &
       & key_type("solver", "max_steps", integer_key, "", one, "1000000", 1.0_wp, 2.0e9_wp, &
       & "most steps for one case", sweepable=.false.), &
-      & key_type("solver", "width", integer_key, "", one, "64", 1.0_wp, 1024.0_wp, &
+      & key_type("solver", "width", integer_key, "", one, "256", 1.0_wp, 1024.0_wp, &
       & "lanes: cases that share one integrator, a power of two", sweepable=.false.)]
 
    type(key_type), parameter :: case_keys(7) = [ &

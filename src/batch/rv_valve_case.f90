@@ -11,7 +11,7 @@ module rv_valve_case
       & key_reed_width_mm, key_reed_thickness_mm, key_reed_density_kg_m3, key_reed_youngs_modulus_gpa, key_reed_k_a, &
       & key_reed_action_area_mm2, key_film_gap_mm, key_film_k_s, key_film_acts, key_pressure_kind, &
       & key_pressure_period_ms, key_pressure_transition_ms, key_pressure_file, key_pressure_event_ms, &
-      & key_fluid_density_kg_m3, key_fluid_viscosity_pa_s, key_solver_rtol, key_solver_max_steps
+      & key_fluid_density_kg_m3, key_fluid_viscosity_pa_s, key_solver_rtol, key_solver_method, key_solver_max_steps
    use rv_lanes, only : lane_settings
    use rv_lumped, only : lumped_lanes, lumped_valve, new_lumped_lanes, squeeze_coefficient
    use rv_pressure, only : pressure_history, square_wave, new_square_wave, pressure_trace, new_pressure_trace
@@ -169,6 +169,7 @@ contains
 
       settings%t_end = value(key_run_t_end_ms)
       settings%rtol = value(key_solver_rtol)
+      settings%method = nint(value(key_solver_method))
       settings%max_steps = nint(value(key_solver_max_steps))
       settings%from_equilibrium = nint(value(key_run_start)) == start_equilibrium
    end function settings_of

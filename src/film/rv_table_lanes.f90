@@ -27,6 +27,7 @@ module rv_table_lanes
    contains
       procedure :: acceleration
       procedure :: linearise
+      procedure :: stiffness_ratio
       procedure :: film_force
       procedure :: equilibrium
       procedure :: scales
@@ -129,6 +130,15 @@ contains
       if (v(1) > 0.0_wp) low = self%table%lowest_pressure(x, drop, -force)
       self%lowest_pressure(lane) = min(self%lowest_pressure(lane), self%outlet(lane)*outlet + low)
    end subroutine film_force
+
+   pure function stiffness_ratio(self) result(ratio)
+      class(table_lanes), intent(in) :: self
+      real(wp) :: ratio(self%width)
+      real(wp) :: y, y_slope, area, area_slope
+
+      call self%table%look_up(1.0_wp, y, y_slope, area, area_slope)
+      ratio = (self%damping + self%film_scale/y**3)*sqrt(self%inverse_mass/self%stiffness)
+   end function stiffness_ratio
 
    !> k u = (p_in - p_out) (int_hole psi + A_land(u)) by Newton's method, kept above the table's lowest x.
    subroutine equilibrium(self, inlet, outlet, q, found)

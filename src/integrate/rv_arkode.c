@@ -352,12 +352,16 @@ static int configure(rv_arkode *self, const char *table, double first_step) {
   TRY(ARKStepSetErrHandlerFn(m, keep_message, self));
 #endif
   TRY(ARK(SetUserData)(m, self));
-  TRY(ARKStepSetTableName(m, table, "ARKODE_ERK_NONE"));
+  if (self->stage == NULL) {
+    TRY(ARKStepSetTableName(m, "ARKODE_DIRK_NONE", table));
+  } else {
+    TRY(ARKStepSetTableName(m, table, "ARKODE_ERK_NONE"));
+    TRY(ARK(SetNonlinearSolver)(m, self->solver));
+    TRY(ARK(SetDeduceImplicitRhs)(m, SUNTRUE));
+    TRY(ARK(SetPredictorMethod)(m, 0));
+  }
   TRY(ARK(WFtolerances)(m, call_weight));
-  TRY(ARK(SetNonlinearSolver)(m, self->solver));
-  TRY(ARK(SetDeduceImplicitRhs)(m, SUNTRUE));
   TRY(ARK(SetInterpolantType)(m, ARK_INTERP_LAGRANGE));
-  TRY(ARK(SetPredictorMethod)(m, 0));
   TRY(ARK(SetMaxNumSteps)(m, -1));
   TRY(ARK(SetMaxHnilWarns)(m, -1));
   TRY(ARK(SetSafetyFactor)(m, 0.96));
@@ -382,7 +386,8 @@ static int build(rv_arkode *self, double t0, const double *y0, const char *table
   self->solver = stage_solver_new(self);
   if (self->y != NULL) {
     memcpy(values(self->y), y0, (size_t)count(self->y) * sizeof(double));
-    self->memory = ARKStepCreate(NULL, call_rhs, t0, self->y, self->context);
+    self->memory = ARKStepCreate(self->stage == NULL ? call_rhs : NULL, self->stage == NULL ? NULL : call_rhs, t0,
+                                 self->y, self->context);
   }
 #if SUNDIALS_NUMBER >= 701
   self->controller = SUNAdaptController_PID(self->context);

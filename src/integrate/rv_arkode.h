@@ -20,7 +20,8 @@ typedef int (*rv_weight_fn)(const double *y, double *weight, void *data);
 /* What a step returned; any negative value is ARKODE's own return flag. */
 enum { RV_STEPPED = 0, RV_AT_STOP = 1 };
 
-/* `first_step` is the size of the first step to try. Functions of type int return 0 (rv_arkode_step: see above) or a negative flag; rv_arkode_message then
+/* `table` is ARKODE's name of an implicit Butcher table, or of an explicit one where `stage` is NULL;
+ * `first_step` is the size of the first step to try. Functions of type int return 0 (rv_arkode_step: see above) or a negative flag; rv_arkode_message then
  * holds a sentence. rv_arkode_worst_lane returns the lane, from 0, with the largest error estimate. */
 int rv_arkode_new(int lanes, int states, double t0, const double *y0, const char *table, double first_step, rv_rhs_fn rhs,
                   rv_stage_fn stage, rv_weight_fn weight, void *data, rv_arkode **self);

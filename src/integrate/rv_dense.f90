@@ -5,7 +5,7 @@ module rv_dense
    use rv_kinds, only : wp
    implicit none
    private
-   public :: quintic, value_at, motion_at, derivative, first_root, inverse_guess
+   public :: quintic, value_at, motion_at, derivative, first_root
 
 contains
 
@@ -107,17 +107,6 @@ contains
          end if
       end do
    end function first_root
-
-   !> Where a function that runs from y0 to y1 on 0..1 is zero: cubic in y that meets both ends and the slopes there.
-   pure real(wp) function inverse_guess(y0, slope0, y1, slope1) result(s)
-      real(wp), intent(in) :: y0, slope0, y1, slope1
-      real(wp) :: x, d0, d1
-
-      x = y0/(y0 - y1)
-      d0 = (y1 - y0)/slope0
-      d1 = (y1 - y0)/slope1
-      s = x*(d0 + x*(3.0_wp - 2.0_wp*d0 - d1 + x*(d0 + d1 - 2.0_wp)))
-   end function inverse_guess
 
    !> Value and slope of a quintic.
    pure subroutine evaluate(c, s, value, slope)

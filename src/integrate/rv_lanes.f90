@@ -5,7 +5,8 @@
 !> that fails is taken out while the others go on.
 module rv_lanes
    use, intrinsic :: ieee_arithmetic, only : ieee_is_finite, ieee_value, ieee_quiet_nan
-   use, intrinsic :: iso_c_binding, only : c_char, c_double, c_f_pointer, c_funloc, c_int, c_loc, c_null_char, c_ptr
+   use, intrinsic :: iso_c_binding, only : c_char, c_double, c_f_pointer, c_funloc, c_int, c_loc, c_null_char, &
+      & c_null_funptr, c_ptr
    use rv_kinds, only : wp, i8
    use rv_arkode, only : rv_arkode_new, rv_arkode_step, rv_arkode_restart, rv_arkode_fix_step, &
       & rv_arkode_worst_lane, rv_arkode_free, get_arkode_message, rv_at_stop
@@ -21,6 +22,9 @@ module rv_lanes
    implicit none
    private
    public :: lane_settings, lane_outcome, run_lanes
+   public :: method_implicit, method_explicit, method_auto
+
+   integer, parameter :: method_implicit = 1, method_explicit = 2, method_auto = 3
 
    !> Steps below this part of the time to integrate, so many in a row, are no progress: a film that closes draws the
    !> steps to the instant of its closing, for ever where rounding keeps its last gap open.
@@ -32,7 +36,14 @@ module rv_lanes
    !> Not its relatives ESDIRK547L2SA and ESDIRK436L2SA: they have a stage behind the end of the step, which at a corner
    !> of the pressure sees what comes after it and costs them their order (2 in place of 5). The longer steps of
    !> ARK548L2SA would leave the dense output less accurate than the steps.
-   character(len=*), parameter :: butcher_table = "ARKODE_ESDIRK547L2SA2_7_4_5"
+   character(kind=c_char, len=*), parameter :: implicit_table = "ARKODE_ESDIRK547L2SA2_7_4_5"//c_null_char
+   !> Fifth order (Cash & Karp 1990, doi:10.1145/79505.79507): of the explicit tables whose last stage ARKODE 6.4 does not
+   !> take for the next step's first where it is not.
+   character(kind=c_char, len=*), parameter :: explicit_table = "ARKODE_CASH_KARP_6_4_5"//c_null_char
+
+   !> Stiffest lane, as stiffness_ratio has it, that method_auto still integrates explicitly: where both took equally long
+   !> for the reed of the paper, at a gap of some 0.055 mm.
+   real(wp), parameter :: explicit_up_to = 5.0_wp
 
    !> How to integrate.
    type :: lane_settings
@@ -40,6 +51,7 @@ module rv_lanes
       real(wp) :: rtol = 1.0e-6_wp           !! allowed error of a step, relative to the state plus its scale [-]
       integer :: max_steps = 1000000         !! accepted steps of the group
       logical :: from_equilibrium = .false.  !! start at the static equilibrium, else at rest on u = 0
+      integer :: method = method_implicit
       real(wp) :: fixed_step = 0.0_wp        !! [s]; > 0: no step control (for studies of convergence)
    end type lane_settings
 
@@ -52,6 +64,7 @@ module rv_lanes
       real(wp), allocatable :: field(:, :, :)    !! film pressure (nodes, field time, width) [Pa]
       real(wp), allocatable :: lowest_pressure(:) !! lowest pressure seen in the film [Pa]; huge if none was
       integer :: steps = 0                       !! accepted
+      logical :: is_explicit = .false.           !! how the group was integrated
    end type lane_outcome
 
    !> What ARKODE's callbacks see.
@@ -309,13 +322,18 @@ contains
       real(c_double), intent(in) :: y(:)
       type(c_ptr), intent(out) :: integrator
       type(lane_outcome), intent(inout) :: outcome
-      character(kind=c_char, len=*), parameter :: table = butcher_table//c_null_char
       character(len=:), allocatable :: reason
       integer(c_int) :: flag
 
-      flag = rv_arkode_new(int(problem%lanes%width, c_int), int(2*problem%lanes%dofs, c_int), &
-         & problem%history%start, y, table, first_step(problem), &
-         & c_funloc(rhs), c_funloc(stage), c_funloc(weights), c_loc(problem), integrator)
+      outcome%is_explicit = settings%method == method_explicit &
+         & .or. settings%method == method_auto .and. maxval(problem%lanes%stiffness_ratio()) <= explicit_up_to
+      if (outcome%is_explicit) then
+         flag = rv_arkode_new(int(problem%lanes%width, c_int), int(2*problem%lanes%dofs, c_int), problem%history%start, y, &
+            & explicit_table, first_step(problem), c_funloc(rhs), c_null_funptr, c_funloc(weights), c_loc(problem), integrator)
+      else
+         flag = rv_arkode_new(int(problem%lanes%width, c_int), int(2*problem%lanes%dofs, c_int), problem%history%start, y, &
+            & implicit_table, first_step(problem), c_funloc(rhs), c_funloc(stage), c_funloc(weights), c_loc(problem), integrator)
+      end if
       if (flag >= 0 .and. settings%fixed_step > 0.0_wp) flag = rv_arkode_fix_step(integrator, settings%fixed_step)
       started = flag >= 0
       if (started) return

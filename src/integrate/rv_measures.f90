@@ -6,7 +6,8 @@
 module rv_measures
    use, intrinsic :: ieee_arithmetic, only : ieee_value, ieee_quiet_nan
    use rv_kinds, only : wp
-   use rv_dense, only : value_at, motion_at, derivative, first_root, inverse_guess
+   use rv_crossing, only : crossings
+   use rv_dense, only : value_at, motion_at, derivative, first_root
    use rv_pressure, only : pressure_history
    use rv_step, only : step_type
    use rv_valve_lanes, only : valve_lanes, most_dofs
@@ -20,9 +21,12 @@ module rv_measures
    real(wp), parameter :: up_level(n_up) = [0.10_wp, 0.90_wp, 0.98_wp]              !! while opening [-]
    real(wp), parameter :: down_level(n_down) = [0.90_wp, 0.10_wp, 0.02_wp, 0.0_wp]  !! while closing [-]
 
+   !> A curve turns no further than where its tangents at a step's ends meet if it bends one way; it need not.
+   real(wp), parameter :: allowance = 1.5_wp
+
    real(wp), parameter :: noise = 10.0_wp  !! global error over the tolerance of a step, at most
 
-   !> Crossings and extremes found so far; arrays are (width) or (levels, width).
+   !> Crossings and extremes found so far; arrays are (width) or (width, levels).
    type :: measure_lanes
       private
       real(wp) :: start = 0.0_wp      !! first instant [s]
@@ -40,7 +44,7 @@ module rv_measures
       real(wp), allocatable :: largest_force(:)   !! largest film force against closing [N]
       logical, allocatable :: closed(:)           !! a lane that has failed: its measures stay
       real(wp), allocatable :: last(:, :)         !! those measures
-      real(wp), allocatable :: rate(:)            !! rate of change of that force at the end of the last step [N s-1]
+      real(wp), allocatable :: force(:), rate(:)  !! that force and its rate at the end of the last step [N], [N s-1]
    contains
       procedure :: observe
       procedure :: results
@@ -67,7 +71,7 @@ contains
       self%steady = steady
       self%resolution = 0.0_wp
       if (present(rtol)) self%resolution = noise*rtol
-      allocate(self%up(n_up, size(u)), self%down(n_down, size(u)))
+      allocate(self%up(size(u), n_up), self%down(size(u), n_down))
       self%up = ieee_value(1.0_wp, ieee_quiet_nan)
       self%down = self%up(1, 1)
       self%next_up = merge(up_level(1)*steady, huge(1.0_wp), steady > 0.0_wp)
@@ -76,7 +80,7 @@ contains
       self%lowest = u
       allocate(self%closed(size(u)), source=.false.)
       allocate(self%last(n_measures, size(u)))
-      allocate(self%largest_force(size(u)), self%rate(size(u)), source=0.0_wp)
+      allocate(self%largest_force(size(u)), self%force(size(u)), self%rate(size(u)), source=0.0_wp)
    end subroutine new_measure_lanes
 
    !> Take one more step into account. Steps come in order and none spans the event.
@@ -89,7 +93,7 @@ contains
       class(pressure_history), intent(in) :: history
       real(wp), dimension(step%width) :: chance, force, rate
       real(wp) :: inlet, outlet
-      integer :: i
+      integer :: lane(step%width), straight, i
 
       if (step%t0 >= self%cycle_end) return
       do i = 1, step%width
@@ -106,23 +110,32 @@ contains
          call look_down(step%width, step%t1 - step%t0, step%u0, step%u1, step%w0, step%w1, self%next_down, self%lowest, &
             & chance)
       end if
+      straight = 0
       do i = 1, step%width
          if (.not. chance(i) >= 0.0_wp) cycle
-         if (step%live(i)) call observe_lane(self, step, i)
+         if (.not. step%live(i)) cycle
+         if (step%w0(i)*step%w1(i) < 0.0_wp) then
+            call observe_turn(self, step, i)
+         else
+            straight = straight + 1
+            lane(straight) = i
+         end if
       end do
+      if (straight > 0) call observe_straight(self, step, lane(:straight))
       call history%factors(step%t1, inlet, outlet)
       call lanes%film_forces(inlet, outlet, step%q1, step%v1, step%a1, force, rate)
-      call look_for_peaks(step%width, step%t1 - step%t0, force, self%rate, rate, self%largest_force, chance)
+      call look_for_peaks(step%width, step%t1 - step%t0, self%force, self%rate, force, rate, self%largest_force, chance)
       do i = 1, step%width
-         if (chance(i) >= 0.0_wp) call find_peak(self, step, i, lanes, history, rate(i))
+         if (chance(i) > 0.0_wp) call find_peak(self, step, i, lanes, history, force(i), rate(i))
       end do
+      self%force = force
       self%rate = rate
    end subroutine observe
 
    !> Which lanes may cross a level upwards within a step, or reach a new maximum inside it: those whose `chance` is not
    !> negative. Notes the step's end as a maximum.
    !>
-   !> Between turns u runs from end to end; past a turn it goes no further than the larger of its speeds takes it.
+   !> Between turns u runs from end to end; past a turn it goes about as far as where the tangents at the ends meet.
    pure subroutine look_up(n, dt, u0, u1, w0, w1, next, steady, highest, chance)
       integer, intent(in) :: n
       real(wp), intent(in) :: dt
@@ -130,15 +143,17 @@ contains
       real(wp), intent(in) :: next(n)       !! lowest level still of interest [m]; that at `steady` is above the highest
       real(wp), intent(inout) :: highest(n)
       real(wp), intent(out) :: chance(n)
-      real(wp) :: reach, top, low
+      real(wp) :: reach, top, low, meet
       integer :: i
 
       do i = 1, n
          highest(i) = max(highest(i), u1(i))
-         reach = dt*max(abs(w0(i)), abs(w1(i)))
-         reach = merge(reach, 0.0_wp, w0(i)*w1(i) < 0.0_wp)
-         top = max(u0(i), u1(i)) + reach
-         low = min(u0(i), u1(i)) - reach
+         top = max(u0(i), u1(i))
+         low = min(u0(i), u1(i))
+         meet = u0(i) + w0(i)*((u1(i) - u0(i) - w1(i)*dt)/(w0(i) - w1(i)))
+         reach = merge(allowance*max(meet - top, low - meet), 0.0_wp, w0(i)*w1(i) < 0.0_wp)
+         top = top + reach
+         low = low - reach
          chance(i) = max(min(top - next(i), steady(i) - low), merge(top - highest(i), -1.0_wp, reach > 0.0_wp))
       end do
    end subroutine look_up
@@ -151,79 +166,159 @@ contains
       real(wp), intent(in) :: next(n)    !! highest level still of interest [m]
       real(wp), intent(inout) :: lowest(n)
       real(wp), intent(out) :: chance(n)
-      real(wp) :: reach, top, low
+      real(wp) :: reach, top, low, meet
       integer :: i
 
       do i = 1, n
          lowest(i) = min(lowest(i), u1(i))
-         reach = dt*max(abs(w0(i)), abs(w1(i)))
-         reach = merge(reach, 0.0_wp, w0(i)*w1(i) < 0.0_wp)
-         top = max(u0(i), u1(i)) + reach
-         low = min(u0(i), u1(i)) - reach
+         top = max(u0(i), u1(i))
+         low = min(u0(i), u1(i))
+         meet = u0(i) + w0(i)*((u1(i) - u0(i) - w1(i)*dt)/(w0(i) - w1(i)))
+         reach = merge(allowance*max(meet - top, low - meet), 0.0_wp, w0(i)*w1(i) < 0.0_wp)
+         top = top + reach
+         low = low - reach
          chance(i) = max(min(next(i) - low, top), merge(lowest(i) - low, -1.0_wp, reach > 0.0_wp))
       end do
    end subroutine look_down
 
-   !> Which lanes' film force may have a new maximum inside a step: it rises at the start, falls at the end, and its
-   !> rates there could take it so high. Notes the force at the end.
-   pure subroutine look_for_peaks(n, dt, force, rate0, rate1, largest, chance)
+   !> Which lanes' film force may have a new maximum inside a step, those whose `chance` is positive: it rises at the
+   !> start, falls at the end, and the tangents there meet above the largest so far. Notes the force at the end.
+   pure subroutine look_for_peaks(n, dt, force0, rate0, force1, rate1, largest, chance)
       integer, intent(in) :: n
       real(wp), intent(in) :: dt
-      real(wp), dimension(n), intent(in) :: force, rate0, rate1   !! at the end [N]; at both ends [N s-1]
+      real(wp), dimension(n), intent(in) :: force0, rate0, force1, rate1   !! at both ends [N], [N s-1]
       real(wp), intent(inout) :: largest(n)
       real(wp), intent(out) :: chance(n)
+      real(wp) :: higher, above
       integer :: i
 
       do i = 1, n
-         largest(i) = max(largest(i), force(i))
-         chance(i) = merge(force(i) + dt*max(rate0(i), -rate1(i)) - largest(i), -1.0_wp, min(rate0(i), -rate1(i)) > 0.0_wp)
+         largest(i) = max(largest(i), force1(i))
+         higher = max(force0(i), force1(i))
+         above = force0(i) + rate0(i)*(force1(i) - rate1(i)*dt - force0(i))/(rate0(i) - rate1(i)) - higher
+         above = higher + allowance*above - largest(i)
+         chance(i) = merge(above, -1.0_wp, min(rate0(i), -rate1(i)) > 0.0_wp)
       end do
    end subroutine look_for_peaks
 
-   !> Crossings and extremes of one lane within a step.
-   subroutine observe_lane(self, step, i)
+   !> Crossings within a step of lanes that do not turn in it, a level at a time for all of them.
+   subroutine observe_straight(self, step, lane)
+      class(measure_lanes), intent(inout) :: self
+      type(step_type), intent(in) :: step
+      integer, intent(in) :: lane(:)
+      integer :: k
+
+      if (step%t1 <= self%event) then
+         do k = 1, n_up
+            call cross(step%width, up_level(k), self%up(:, k))
+         end do
+      else
+         do k = 1, n_down
+            call cross(step%width, down_level(k), self%down(:, k))
+         end do
+      end if
+      do k = 1, size(lane)
+         call set_next_level(self, lane(k), step%t1 <= self%event)
+      end do
+
+   contains
+
+      !> Note the first crossings of a level.
+      subroutine cross(width, level, instant)
+         integer, intent(in) :: width
+         real(wp), intent(in) :: level            !! [-]
+         real(wp), intent(inout) :: instant(width)
+         integer :: who(size(lane)), n, i, j
+         real(wp), dimension(size(lane)) :: b0, b1, s
+
+         n = 0
+         do j = 1, size(lane)
+            i = lane(j)
+            if (instant(i) >= self%start .or. .not. self%steady(i) > 0.0_wp) cycle
+            if (.not. passes(step%u0(i), step%u1(i), level*self%steady(i), step%t1 <= self%event)) cycle
+            n = n + 1
+            who(n) = i
+         end do
+         if (n == 0) return
+         call step%tip_accelerations(who(:n), b0(:n), b1(:n))
+         call crossings(n, step%t1 - step%t0, level*self%steady(who(:n)), step%u0(who(:n)), step%w0(who(:n)), b0, &
+            & step%u1(who(:n)), step%w1(who(:n)), b1, s)
+         instant(who(:n)) = step%t0 + (step%t1 - step%t0)*s(:n)
+      end subroutine cross
+
+   end subroutine observe_straight
+
+   !> Whether u comes to a level from below, or from above; a start on it is no coming.
+   pure logical function passes(from, to, level, upwards)
+      real(wp), intent(in) :: from, to, level
+      logical, intent(in) :: upwards
+
+      if (upwards) then
+         passes = from < level .and. level <= to
+      else
+         passes = from > level .and. level >= to
+      end if
+   end function passes
+
+   !> The first level whose crossing is not known yet, if any.
+   pure subroutine set_next_level(self, i, upwards)
+      class(measure_lanes), intent(inout) :: self
+      integer, intent(in) :: i
+      logical, intent(in) :: upwards
+      integer :: k
+
+      if (.not. self%steady(i) > 0.0_wp) return
+      if (upwards) then
+         self%next_up(i) = huge(1.0_wp)
+         do k = n_up, 1, -1
+            if (.not. self%up(i, k) >= self%start) self%next_up(i) = up_level(k)*self%steady(i)
+         end do
+      else
+         self%next_down(i) = -huge(1.0_wp)
+         do k = n_down, 1, -1
+            if (.not. self%down(i, k) >= self%start) self%next_down(i) = down_level(k)*self%steady(i)
+         end do
+      end if
+   end subroutine set_next_level
+
+   !> Crossings and the extreme of a lane that turns within a step.
+   subroutine observe_turn(self, step, i)
       class(measure_lanes), intent(inout) :: self
       type(step_type), intent(in) :: step
       integer, intent(in) :: i
-      real(wp) :: c(0:5), dt, turn, u_turn
+      real(wp) :: c(0:5), turn, u_turn
+      logical :: upwards
 
+      upwards = step%t1 <= self%event
       c = step%tip_path(i)
-      dt = step%t1 - step%t0
-      if (.not. step%w0(i)*step%w1(i) < 0.0_wp) then
-         call look(step%u0(i), step%u1(i), 0.0_wp, 1.0_wp)
+      turn = first_root(derivative(c), 0.0_wp, 1.0_wp, step%w0(i)/(step%w0(i) - step%w1(i)))
+      u_turn = value_at(c, turn)
+      if (upwards) then
+         self%highest(i) = max(self%highest(i), u_turn)
       else
-         turn = first_root(derivative(c), 0.0_wp, 1.0_wp, step%w0(i)/(step%w0(i) - step%w1(i)))
-         u_turn = value_at(c, turn)
-         call look(step%u0(i), u_turn, 0.0_wp, turn)
-         call look(u_turn, step%u1(i), turn, 1.0_wp)
+         self%lowest(i) = min(self%lowest(i), u_turn)
       end if
-      if (step%t1 <= self%event) then
-         self%next_up(i) = next_level(up_level, self%up(:, i), huge(1.0_wp))
-      else
-         self%next_down(i) = next_level(down_level, self%down(:, i), -huge(1.0_wp))
-      end if
+      if (.not. self%steady(i) > 0.0_wp) return
+      call look(step%u0(i), u_turn, 0.0_wp, turn)
+      call look(u_turn, step%u1(i), turn, 1.0_wp)
+      call set_next_level(self, i, upwards)
 
    contains
 
       !> One stretch on which u runs from `from` to `to` without turning.
       subroutine look(from, to, s_from, s_to)
          real(wp), intent(in) :: from, to, s_from, s_to
-         real(wp) :: level
          integer :: k
 
-         if (step%t1 <= self%event) then
-            self%highest(i) = max(self%highest(i), to)
-            if (.not. (self%steady(i) > 0.0_wp .and. to > from)) return
+         if (upwards) then
             do k = 1, n_up
-               level = up_level(k)*self%steady(i)
-               if (from < level .and. level <= to) call note(self%up(k, i), level, s_from, s_to)
+               if (passes(from, to, up_level(k)*self%steady(i), upwards)) &
+                  & call note(self%up(i, k), up_level(k)*self%steady(i), s_from, s_to)
             end do
          else
-            self%lowest(i) = min(self%lowest(i), to)
-            if (.not. (self%steady(i) > 0.0_wp .and. to < from)) return
             do k = 1, n_down
-               level = down_level(k)*self%steady(i)
-               if (from > level .and. level >= to) call note(self%down(k, i), level, s_from, s_to)
+               if (passes(from, to, down_level(k)*self%steady(i), upwards)) &
+                  & call note(self%down(i, k), down_level(k)*self%steady(i), s_from, s_to)
             end do
          end if
       end subroutine look
@@ -232,39 +327,26 @@ contains
       subroutine note(t, level, s_from, s_to)
          real(wp), intent(inout) :: t
          real(wp), intent(in) :: level, s_from, s_to
-         real(wp) :: distance(0:5), guess
+         real(wp) :: distance(0:5)
 
          if (t >= self%start) return
          distance = c
          distance(0) = c(0) - level
-         guess = inverse_guess(step%u0(i) - level, dt*step%w0(i), step%u1(i) - level, dt*step%w1(i))
-         t = step%t0 + dt*first_root(distance, s_from, s_to, guess)
+         t = step%t0 + (step%t1 - step%t0)*first_root(distance, s_from, s_to)
       end subroutine note
 
-      !> The first level whose crossing is not known yet, or `none`.
-      pure real(wp) function next_level(level, crossed, none)
-         real(wp), intent(in) :: level(:), crossed(:), none
-         integer :: k
+   end subroutine observe_turn
 
-         next_level = none
-         if (.not. self%steady(i) > 0.0_wp) return
-         do k = size(level), 1, -1
-            if (.not. crossed(k) >= self%start) next_level = level(k)*self%steady(i)
-         end do
-      end function next_level
-
-   end subroutine observe_lane
-
-   !> The film force has a maximum within the step: the root of its rate, by false position (Illinois).
-   subroutine find_peak(self, step, i, lanes, history, rate_now)
+   !> The film force has a maximum within the step: the root of its rate, by false position (Illinois) from the top of
+   !> the cubic that meets force and rate at both ends.
+   subroutine find_peak(self, step, i, lanes, history, force_now, rate_now)
       class(measure_lanes), intent(inout) :: self
       type(step_type), intent(in) :: step
       integer, intent(in) :: i
       class(valve_lanes), intent(inout) :: lanes
       class(pressure_history), intent(in) :: history
-      real(wp), intent(in) :: rate_now   !! of change of the force at the end of the step [N s-1]
-      real(wp), parameter :: flat = 1.0e-9_wp   ! of the largest force, what the peak may lie above it
-      real(wp) :: path(0:5, most_dofs), dt, left, right, rate_left, rate_right, s, rate, bend
+      real(wp), intent(in) :: force_now, rate_now   !! at the end of the step [N], [N s-1]
+      real(wp) :: path(0:5, most_dofs), dt, left, right, rate_left, rate_right, weight_left, weight_right, s, rate, flat
       real(wp), dimension(most_dofs) :: q, v, a
       integer :: k
 
@@ -272,24 +354,30 @@ contains
          path(:, k) = step%path(i, k)
       end do
       dt = step%t1 - step%t0
+      flat = max(1.0e-4_wp*self%resolution, 1.0e-12_wp)*self%largest_force(i)   ! what the peak may lie above the last look
       left = 0.0_wp
       right = 1.0_wp
       rate_left = self%rate(i)
       rate_right = rate_now
+      weight_left = rate_left
+      weight_right = rate_right
+      s = top_of_cubic(force_now - self%force(i), dt*rate_left, dt*rate_right)
       do k = 1, 60
-         bend = (rate_left - rate_right)/(right - left)
-         s = left + rate_left/bend
          rate = rate_at(s)
-         if (.not. dt*rate**2 > flat*self%largest_force(i)*bend) return   ! a parabola's top is rate^2/(2 bend) above
+         ! the top of a parabola lies rate^2/(2 bend) above
+         if (.not. dt*rate**2*(right - left) > 2.0_wp*flat*(rate_left - rate_right)) return
          if (rate > 0.0_wp) then
             left = s
             rate_left = rate
-            rate_right = 0.5_wp*rate_right
+            weight_left = rate
+            weight_right = 0.5_wp*weight_right
          else
             right = s
             rate_right = rate
-            rate_left = 0.5_wp*rate_left
+            weight_right = rate
+            weight_left = 0.5_wp*weight_left
          end if
+         s = left + (right - left)*weight_left/(weight_left - weight_right)
       end do
 
    contains
@@ -312,6 +400,18 @@ contains
 
    end subroutine find_peak
 
+   !> Where on 0..1 a cubic with slope a > 0 at 0 and b < 0 at 1 that rises by `rise` has its top.
+   pure real(wp) function top_of_cubic(rise, a, b) result(s)
+      real(wp), intent(in) :: rise, a, b
+      real(wp) :: half, last
+
+      ! slope a + 2 half s + last s^2
+      half = 3.0_wp*rise - 2.0_wp*a - b
+      last = 3.0_wp*(a + b - 2.0_wp*rise)
+      s = sqrt(max(0.0_wp, half**2 - a*last)) - half
+      s = merge(a/s, 0.5_wp, s > a)
+   end function top_of_cubic
+
    !> The measures of lane i in the order of n_measures: m, s, s, m, s, s, s, m, N.
    !>
    !> A reed that creeps home comes within the integration's error of zero and may cross it there by chance: without
@@ -329,14 +429,14 @@ contains
       least = self%resolution*abs(self%steady(i))
       measure = ieee_value(1.0_wp, ieee_quiet_nan)
       measure(1) = self%steady(i)
-      measure(2) = self%up(2, i) - self%up(1, i)
-      measure(3) = self%up(3, i) - self%start
+      measure(2) = self%up(i, 2) - self%up(i, 1)
+      measure(3) = self%up(i, 3) - self%start
       if (self%steady(i) > 0.0_wp .and. self%event > self%start .and. self%now >= self%event) then
          measure(4) = above(self%highest(i) - self%steady(i), least)
       end if
-      measure(5) = self%down(2, i) - self%down(1, i)
-      measure(6) = self%down(3, i) - self%event
-      if (-self%lowest(i) > least) measure(7) = self%down(4, i) - self%event
+      measure(5) = self%down(i, 2) - self%down(i, 1)
+      measure(6) = self%down(i, 3) - self%event
+      if (-self%lowest(i) > least) measure(7) = self%down(i, 4) - self%event
       if (self%now > self%event) measure(8) = above(-self%lowest(i), least)
       measure(9) = self%largest_force(i)
    end function results

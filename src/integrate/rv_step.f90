@@ -21,6 +21,7 @@ module rv_step
       procedure :: land
       procedure :: path
       procedure :: tip_path
+      procedure :: tip_accelerations
    end type step_type
 
 contains
@@ -99,5 +100,20 @@ contains
          c = c + self%tip(k)*self%path(i, k)
       end do
    end function tip_path
+
+   !> Tip accelerations of some lanes at both ends of the step [m s-2].
+   pure subroutine tip_accelerations(self, lane, b0, b1)
+      class(step_type), intent(in) :: self
+      integer, intent(in) :: lane(:)
+      real(wp), intent(out) :: b0(:), b1(:)   !! (size(lane))
+      integer :: k
+
+      b0 = self%tip(1)*self%a0(lane, 1)
+      b1 = self%tip(1)*self%a1(lane, 1)
+      do k = 2, size(self%tip)
+         b0 = b0 + self%tip(k)*self%a0(lane, k)
+         b1 = b1 + self%tip(k)*self%a1(lane, k)
+      end do
+   end subroutine tip_accelerations
 
 end module rv_step

@@ -39,6 +39,7 @@ module rv_lumped
       procedure :: acceleration
       procedure :: linearise
       procedure :: correction
+      procedure :: stiffness_ratio
       procedure :: film_force
       procedure :: film_forces
       procedure :: equilibrium
@@ -208,6 +209,13 @@ contains
       end do
       closed = some > 0_i8
    end subroutine slopes
+
+   pure function stiffness_ratio(self) result(ratio)
+      class(lumped_lanes), intent(in) :: self
+      real(wp) :: ratio(self%width)
+
+      ratio = (self%damping + self%squeeze/self%gap**3)/sqrt(self%stiffness)
+   end function stiffness_ratio
 
    !> -F_s of Eq. (26) [N] and its rate.
    subroutine film_force(self, lane, inlet, outlet, q, v, a, force, rate)

@@ -32,6 +32,7 @@ module rv_valve_lanes
       procedure(trace_of), deferred :: trace_values
       procedure(silence_lane), deferred :: silence
       procedure :: correction
+      procedure :: stiffness_ratio
       procedure :: film_forces
       procedure :: pressure_field
    end type valve_lanes
@@ -130,6 +131,16 @@ contains
       call self%linearise(first, last, inlet, outlet, q, v, a, a_q, a_v, closed)
       dv = -(v - base_v - gamma*a)/(1.0_wp - gamma*(a_v + gamma*a_q))
    end subroutine correction
+
+   !> What an explicit method pays for: rate of decay at rest over natural frequency, of every lane [-].
+   !>
+   !> Models that only an implicit method can integrate are as stiff as can be.
+   pure function stiffness_ratio(self) result(ratio)
+      class(valve_lanes), intent(in) :: self
+      real(wp) :: ratio(self%width)
+
+      ratio = huge(1.0_wp)
+   end function stiffness_ratio
 
    !> film_force of all lanes, none where a lane has no film. Models of many lanes have a faster one of their own.
    subroutine film_forces(self, inlet, outlet, q, v, a, force, rate)

@@ -3,6 +3,7 @@ program test_block
    use, intrinsic :: ieee_arithmetic, only : ieee_is_nan
    use rv_kinds, only : wp, i8
    use rv_deck, only : deck_type
+   use rv_columns, only : fact_method
    use rv_block, only : block_result, run_block, block_count, block_bounds
    use rv_status, only : status_ok
    use rv_text, only : to_text
@@ -13,6 +14,7 @@ program test_block
 
    call results_in_deck_order()
    call widths_agree()
+   call method_is_told()
    call blocks_agree()
    call threads_agree()
    call models_apart()
@@ -55,6 +57,18 @@ contains
    end subroutine results_in_deck_order
 
    !> One lane an integrator, two, some, all of them.
+   !> Each group of lanes chooses for itself under `auto`, and the results say what.
+   subroutine method_is_told()
+      type(block_result) :: r
+
+      call run_all(suite, "&solver method = 'auto', width = 1 /~&sweep key = 'film.gap_mm', values = 0.2, 0.03 /", r)
+      call suite%true("explicit at 0.2 mm, implicit at 0.03 mm", all(nint(r%fact(fact_method, :)) == [2, 1]))
+      call run_all(suite, "&solver method = 'auto' /~&sweep key = 'film.gap_mm', values = 0.2, 0.03 /", r)
+      call suite%true("together both implicit", all(nint(r%fact(fact_method, :)) == 1))
+      call run_all(suite, "&solver method = 'explicit' /~&film gap_mm = 0.2 /", r)
+      call suite%true("explicit as asked for", all(nint(r%fact(fact_method, :)) == 2))
+   end subroutine method_is_told
+
    subroutine widths_agree()
       type(block_result) :: r, alone
       type(deck_type) :: deck

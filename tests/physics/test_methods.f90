@@ -1,0 +1,116 @@
+!> The explicit method: its order, its agreement with the implicit one, and how `auto` chooses between the two.
+program test_methods
+   use rv_kinds, only : wp
+   use rv_lanes, only : lane_outcome, lane_settings, method_auto, method_explicit, method_implicit
+   use rv_lumped, only : lumped_lanes, lumped_valve, new_lumped_lanes
+   use rv_status, only : status_ok
+   use check, only : suite_type
+   use paper_valve, only : run_lumped, valve_at, wave_40ms, kpa, mm, ms
+   implicit none
+   type(suite_type) :: suite
+   real(wp), parameter :: k_s = 0.0075_wp
+   real(wp) :: no_times(0)
+
+   call order()
+   call agreement(1.0e-4_wp)
+   call agreement(1.0e-7_wp)
+   call choice()
+   call closed_film()
+   call suite%finish()
+
+contains
+
+   !> Halving the step divides the error by 2^5, where the film acts both ways and the corners lie on the grid.
+   subroutine order()
+      real(wp) :: e(3), fine
+      integer :: i
+
+      fine = displacement(2.5e-3_wp*ms)
+      do i = 1, 3
+         e(i) = abs(displacement(0.05_wp*ms/2.0_wp**i) - fine)
+      end do
+      call suite%close("observed order, first halving", log(e(1)/e(2))/log(2.0_wp), 5.0_wp, 0.0_wp, 0.5_wp)
+      call suite%close("observed order, second halving", log(e(2)/e(3))/log(2.0_wp), 5.0_wp, 0.0_wp, 0.5_wp)
+   end subroutine order
+
+   !> Displacement in mid closing, with fixed steps.
+   real(wp) function displacement(step) result(u)
+      real(wp), intent(in) :: step
+      type(lane_outcome) :: outcome
+      type(lane_settings) :: settings
+      type(lumped_valve) :: valve(1)
+
+      settings%t_end = 20.25_wp*ms
+      settings%fixed_step = step
+      settings%method = method_explicit
+      valve = valve_at(20.0_wp*kpa, 0.1_wp*mm, k_s)
+      valve%both_ways = .true.
+      call run_lumped(valve, wave_40ms(), settings, [settings%t_end], outcome)
+      u = outcome%trace(1, 1, 1)
+   end function displacement
+
+   !> Both methods, from gaps that are stiff to gaps that are not: no further apart than some tolerances.
+   subroutine agreement(rtol)
+      real(wp), intent(in) :: rtol
+      real(wp), parameter :: most = 10.0_wp
+      type(lane_outcome) :: one, other
+      type(lumped_valve) :: valve(8)
+      integer :: i
+
+      valve = [(valve_at(5.0_wp*kpa*i, 0.02_wp*mm*i, k_s), i=1, 8)]
+      call run_lumped(valve, wave_40ms(), settings_of(method_implicit, rtol), no_times, one)
+      call run_lumped(valve, wave_40ms(), settings_of(method_explicit, rtol), no_times, other)
+      call suite%true("all end well", all(one%status == status_ok) .and. all(other%status == status_ok))
+      call suite%true("one says implicit, the other explicit", other%is_explicit .and. .not. one%is_explicit)
+      call suite%close("fall and closing: distance over rtol", &
+         & maxval(abs(other%measure(5:6, :)/one%measure(5:6, :) - 1.0_wp))/rtol, 0.0_wp, 0.0_wp, most)
+      call suite%true("they are not the same numbers", any(abs(other%measure(5, :) - one%measure(5, :)) > 0.0_wp))
+   end subroutine agreement
+
+   type(lane_settings) function settings_of(method, rtol) result(settings)
+      integer, intent(in) :: method
+      real(wp), intent(in) :: rtol
+
+      settings%t_end = 40.0_wp*ms
+      settings%method = method
+      settings%rtol = rtol
+   end function settings_of
+
+   !> (c_a + C/g0^3)/sqrt(k m) of the stiffest lane decides.
+   subroutine choice()
+      type(lumped_lanes) :: lanes
+      type(lumped_valve) :: valve(2)
+
+      valve = [valve_at(20.0_wp*kpa, 0.2_wp*mm, k_s), valve_at(20.0_wp*kpa, 0.03_wp*mm, k_s)]
+      call new_lumped_lanes(lanes, valve)
+      call suite%close("stiffness of the easy and the stiff lane", maxval(abs(lanes%stiffness_ratio() &
+         & /((valve%damping + valve%squeeze/valve%gap**3)/sqrt(valve%stiffness*valve%mass)) - 1.0_wp)), 0.0_wp, 0.0_wp, 1.0e-14_wp)
+      call suite%true("easy lanes: explicit", chooses_explicit(valve(1:1)))
+      call suite%true("stiff lanes: implicit", .not. chooses_explicit(valve(2:2)))
+      call suite%true("one stiff lane: implicit for all", .not. chooses_explicit(valve))
+      valve%squeeze = 0.0_wp
+      call suite%true("without film: explicit", chooses_explicit(valve))
+   end subroutine choice
+
+   logical function chooses_explicit(valve)
+      type(lumped_valve), intent(in) :: valve(:)
+      type(lane_outcome) :: outcome
+
+      call run_lumped(valve, wave_40ms(), settings_of(method_auto, 1.0e-4_wp), no_times, outcome)
+      chooses_explicit = outcome%is_explicit .and. all(outcome%status == status_ok)
+   end function chooses_explicit
+
+   !> A pressure that closes the film of one lane ends that lane, not its neighbour.
+   subroutine closed_film()
+      type(lane_outcome) :: outcome
+      type(lumped_valve) :: valve(2)
+
+      valve = valve_at(20.0_wp*kpa, 0.1_wp*mm, k_s)
+      valve(1)%outlet = 1.0e5_wp*kpa
+      valve(1)%squeeze = 1.0e-30_wp
+      call run_lumped(valve, wave_40ms(), settings_of(method_explicit, 1.0e-4_wp), no_times, outcome)
+      call suite%true("the lane on its seat fails: "//outcome%message(1)%s, outcome%status(1) /= status_ok)
+      call suite%true("its neighbour ends well", outcome%status(2) == status_ok)
+   end subroutine closed_film
+
+end program test_methods
