@@ -6,7 +6,9 @@ as many cases as there are lanes make every group of lanes a mixture; each case 
 rtol 1e-11. Then the cost: mixtures, the same cases sorted within one block, and easy cases without and with one hard
 case in each group.
 
-usage: lane_accuracy.py [--build FOLDER] [--output FOLDER] [--cases N] [--seed N]
+The single runs themselves are held against SciPy's Radau with rtol 1e-12, which knows nothing of this code, on a few.
+
+usage: lane_accuracy.py [--build FOLDER] [--output FOLDER] [--cases N] [--seed N] [--check N]
 """
 
 from __future__ import annotations
@@ -21,7 +23,7 @@ from pathlib import Path
 import netCDF4
 import numpy as np
 from report import Table, grouped
-from sweep import ROOT
+from sweep import ROOT, Valve, square_wave_response
 
 KEYS = ("film.gap_mm", "pressure.inlet_kpa", "fluid.viscosity_pa_s")
 RANGES = ((0.01, 1.0), (0.1, 500.0), (1e-3, 1.0))
@@ -106,6 +108,15 @@ def errors(result: dict[str, np.ndarray], exact: dict[str, np.ndarray]) -> tuple
     return worst, missing, int(result["failed"].sum())
 
 
+def distance_to_scipy(cases: np.ndarray, exact: dict[str, np.ndarray], count: int) -> float:
+    """Largest relative distance of fall and closing times to SciPy's, of the first cases."""
+    worst = [0.0]
+    for i, (gap, inlet, viscosity) in enumerate(cases[:count]):
+        scipy = square_wave_response(Valve(gap=1e-3 * gap, viscosity=viscosity), 1e3 * inlet, squeeze=True)
+        worst += [abs(exact["fall_ms"][i] / scipy.fall_ms - 1.0), abs(exact["closing_ms"][i] / scipy.closing_ms - 1.0)]
+    return float(np.nanmax(worst))
+
+
 def accuracy(blocks: Blocks, cases: np.ndarray, method: str | None, exact: dict[str, np.ndarray]) -> Table:
     """Worst lane errors."""
     name = method or "implicit"
@@ -155,6 +166,7 @@ def main() -> int:
     parser.add_argument("--output", type=Path, default=ROOT / "results" / "benchmarks", help="for lane_accuracy.md")
     parser.add_argument("--cases", type=int, default=1024)
     parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--check", type=int, default=0, help="single runs to hold against SciPy, some seconds each")
     words = parser.parse_args()
     random = np.random.default_rng(words.seed)
     cases = draw(random, words.cases, RANGES)
@@ -163,6 +175,9 @@ def main() -> int:
         blocks = Blocks(words.build.resolve(), Path(folder))
         methods = blocks.methods()
         exact = blocks.run(cases, EXACT, 1, 256, methods[0])
+        if words.check:
+            far = distance_to_scipy(cases, exact, words.check)
+            print(f"Largest relative distance of {words.check} single runs to SciPy's Radau: {far:.1e}\n")
         tables = [accuracy(blocks, cases, method, exact) for method in methods]
         tables += [cost(blocks, cases, easy, method) for method in methods]
     text = "\n".join(table.markdown() for table in tables)

@@ -17,6 +17,7 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "postproc" / "tests"))
 from make_sweep_reference import read_reference, sweep_cases  # noqa: E402
 from reference_model import Valve  # noqa: E402
+from reference_model import square_wave_response as square_wave_response  # noqa: E402
 
 LIMIT = 1.0e-4  # relative, of every fall and closing time
 PERIOD, TRANSITION = 40e-3, 1e-3  # of the square wave [s]
