@@ -23,6 +23,7 @@ program test_film_valve
    call strips()
    call wet_frequency()
    call limits()
+   call ranges()
    call planform_data()
    call refusals()
    call suite%finish()
@@ -128,7 +129,7 @@ contains
    end subroutine wet_frequency
 
    subroutine limits()
-      type(film_valve) :: dry, thin, range
+      type(film_valve) :: dry, thin
       type(error_type), allocatable :: error
 
       dry = paper_case(reed, gap, 20.0_wp*kpa, load_none)
@@ -138,10 +139,31 @@ contains
       call new_film_valve(thin, reed, 0.15_wp*mm, 8950.0_wp, 110.0e9_wp, nu, load_sader, &
          & fluid_type(density=1.0e-6_wp, viscosity=1.0e-9_wp), gap, error)
       call suite%close("in next to nothing", thin%omega/dry%omega, 1.0_wp, 0.0_wp, 1.0e-6_wp)
-      call new_film_valve(range, reed, 0.15_wp*mm, 8950.0_wp, 110.0e9_wp, nu, load_maali, &
-         & fluid_type(density=1000.0_wp, viscosity=1.0e-5_wp), gap, error)
-      call suite%true("Re = "//to_text(range%reynolds, 3)//" is beyond Eq. (23)", .not. range%in_range)
    end subroutine limits
+
+   !> Told from Re = 0.1 to 1000 for Eq. (23), from 1e-6 to 1e4 for Sader's function.
+   subroutine ranges()
+      integer, parameter :: choice(2) = [load_maali, load_sader]
+      real(wp), parameter :: lowest(2) = [0.1_wp, 1.0e-6_wp], highest(2) = [1.0e3_wp, 1.0e4_wp]
+      type(film_valve) :: valve
+      type(error_type), allocatable :: error
+      real(wp) :: reynolds(-6:6)
+      logical :: right
+      integer :: i, k
+
+      do i = 1, 2
+         right = .true.
+         do k = -6, 6
+            call new_film_valve(valve, reed, 0.15_wp*mm, 8950.0_wp, 110.0e9_wp, nu, choice(i), &
+               & fluid_type(density=875.0_wp, viscosity=10.0_wp**k), gap, error)
+            if (allocated(error)) error stop "the liquid is refused"
+            reynolds(k) = valve%reynolds
+            right = right .and. (valve%in_range .eqv. (valve%reynolds >= lowest(i) .and. valve%reynolds <= highest(i)))
+         end do
+         call suite%true("function "//to_text(i)//": in its range where it says so, Re "//to_text(reynolds(6), 2)//" to " &
+            & //to_text(reynolds(-6), 2), right .and. reynolds(6) < lowest(i) .and. reynolds(-6) > highest(i))
+      end do
+   end subroutine ranges
 
    !> The planform and its data are those of the plate: D_p and rho h scale stiffness and mass.
    subroutine planform_data()

@@ -360,6 +360,7 @@ contains
          q = base_q
          call solve(lanes, inlet, outlet, gamma, base_q, base_v, weight, q, v, failed, closed)
          call suite%true("gamma = "//to_text(gamma, 1)//" s: the system is solved", failed == 0)
+         call suite%true("q follows v", all(abs(q - (base_q + gamma*v)) <= some_ulp*(abs(base_q) + abs(gamma*v))))
          w = reshape(sum(base_v, 2), [width, 1])
          u = w
          call solve(lumped, inlet, outlet, gamma, reshape(sum(base_q, 2), [width, 1]), reshape(sum(base_v, 2), [width, 1]), &
