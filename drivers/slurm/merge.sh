@@ -1,0 +1,6 @@
+#!/bin/sh
+# The results of a run whose slices are done; says which blocks are missing if they are not.
+#    sbatch --dependency=afterany:$job drivers/slurm/merge.sh my
+#SBATCH --job-name=reedvalve-merge
+#SBATCH --time=01:00:00
+exec ${REEDVALVE:-reedvalve} merge "$1"
