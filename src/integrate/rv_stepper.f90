@@ -35,7 +35,7 @@ module rv_stepper
       real(wp) :: t = 0.0_wp                              !! [s]
       real(wp) :: next_step = 0.0_wp                      !! length of step to try first [s]; 0: not known yet
       real(wp), allocatable :: state(:)                   !! displacements [m], then velocities [m s-1]
-      real(wp), allocatable :: sample(:)                  !! trace values at t; NaN before the first step
+      real(wp), allocatable :: sample(:)                  !! trace values at t; before the first step NaN but for the motion
       logical :: has_stepped = .false.                    !! else the first step finds the equilibrium, if so set
       logical :: has_failed = .false.                     !! in the last step: the state is the one before it
    contains
@@ -58,6 +58,7 @@ contains
       self%t = t
       allocate(self%state(2*self%lanes%dofs), source=0.0_wp)
       allocate(self%sample(self%lanes%traces), source=ieee_value(1.0_wp, ieee_quiet_nan))
+      if (.not. settings%from_equilibrium) self%sample(:2) = 0.0_wp
    end subroutine new_stepper
 
    !> Go on to t_end. On failure the state stays as it was.
