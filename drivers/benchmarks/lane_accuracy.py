@@ -76,12 +76,11 @@ class Blocks:
             return result | {"failed": file["status"][:] != 0}
 
     def rate(self, cases: np.ndarray, *words: object) -> float:
-        """Cases per second without files, one thread."""
-        out = subprocess.run(
-            [self.kernel, self.deck(cases, *words), "1", self.folder / "times", "0.5"],
-            check=True, capture_output=True, text=True,
-        )  # fmt: skip
-        return len(cases) / float(out.stdout)
+        """Cases per second without files, one thread; NaN where a case fails."""
+        done = subprocess.run(
+            [self.kernel, self.deck(cases, *words), "1", self.folder / "times", "0.5"], capture_output=True, text=True
+        )
+        return len(cases) / float(done.stdout) if done.returncode == 0 else float("nan")
 
     def methods(self) -> list[str | None]:
         """Values of solver.method; None where this build has no such key."""
@@ -150,6 +149,7 @@ def cost(blocks: Blocks, cases: np.ndarray, easy: np.ndarray, method: str | None
             rates.append(blocks.rate(company, rtol, width, width, method))
         cells = [grouped(rate) for rate in rates[:3]]
         cells += [f"{grouped(rate)} (x {rates[2] / rate:.2f})" for rate in rates[3:]]
+        cells = ["a case fails" if np.isnan(rate) else cell for rate, cell in zip(rates, cells, strict=True)]
         table.rows.append([str(width), *cells, *["-"] * (5 - len(rates))])
     table.note = (
         "mixed: blocks of as many cases as lanes, in random order; sorted: the same cases in one block, which sorts "

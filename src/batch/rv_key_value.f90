@@ -63,8 +63,9 @@ contains
       end select
       if (trouble == "") trouble = range_trouble(key, value)
       if (trouble == "" .and. key == key_solver_width .and. popcnt(nint(value)) /= 1) trouble = "must be a power of two"
-      if (trouble == "" .and. key == key_film_gap_mm .and. value > 0.0_wp .and. value < smallest_gap_mm) &
-         & trouble = "must be 0 or from "//to_text(smallest_gap_mm)//" to "//to_text(keys(key)%highest)//unit_in_parentheses(key)
+      if (trouble == "" .and. key == key_film_gap_mm .and. value > 0.0_wp .and. value < smallest_gap_mm) then
+         trouble = "must be 0 or from "//to_text(smallest_gap_mm)//" to "//to_text(keys(key)%highest)//unit_in_parentheses(key)
+      end if
       value = to_si(key, value)
    end subroutine read_bare_value
 

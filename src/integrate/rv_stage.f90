@@ -16,7 +16,7 @@ module rv_stage
    private
    public :: solve_stage, stage_guess
 
-   integer, parameter :: together = 32      !! lanes that iterate side by side
+   integer, parameter :: together = 128      !! lanes that iterate side by side
    integer, parameter :: max_iterations = 40
    integer, parameter :: max_halvings = 8   !! of a lane's correction, in one iteration
    real(wp), parameter :: accuracy = 0.1_wp !! last correction of a system over tolerance; Newton squares it: error below rtol
@@ -143,10 +143,7 @@ contains
 
       closed = .false.
       n = last - first + 1
-      base_q(:n) = q_n + known_q
-      base_v(:n) = v_n + known_v
-      v(:n) = base_v(:n) + (gamma*drawn(1))*a_old + (gamma*drawn(2))*a_older
-      call keep_open(n, gamma, base_q, gap, v)
+      call predict(n, gamma, drawn, q_n, v_n, known_q, known_v, gap, a_old, a_older, base_q, base_v, v)
       do iteration = 1, max_iterations
          call lanes%correction(first, last, inlet, outlet, gamma, base_q, base_v, v, step, film, failed)
          if (failed > 0) then
@@ -165,23 +162,29 @@ contains
       end do
    end subroutine solve_scalar
 
-   !> Cut predictions that would close a film, or take more than nine tenths of it.
-   pure subroutine keep_open(n, gamma, base_q, gap, v)
+   !> What is known of q and v, and v with accelerations drawn on from earlier ones, but so that no film closes and none
+   !> loses more than nine tenths.
+   pure subroutine predict(n, gamma, drawn, q_n, v_n, known_q, known_v, gap, a_old, a_older, base_q, base_v, v)
       integer, intent(in) :: n
-      real(wp), intent(in) :: gamma
-      real(wp), intent(in) :: base_q(n), gap(n)
-      real(wp), intent(inout) :: v(n)
-      real(wp) :: film, least, kept
+      real(wp), intent(in) :: gamma, drawn(2)
+      real(wp), dimension(n), intent(in) :: q_n, v_n, known_q, known_v, gap, a_old, a_older
+      real(wp), dimension(n), intent(out) :: base_q, base_v, v
+      real(wp) :: film, least, kept, new, old, older
       integer :: i
 
+      old = gamma*drawn(1)
+      older = gamma*drawn(2)
       do i = 1, n
+         base_q(i) = q_n(i) + known_q(i)
+         base_v(i) = v_n(i) + known_v(i)
+         new = base_v(i) + old*a_old(i) + older*a_older(i)
          film = base_q(i) + gap(i)
          least = 0.1_wp*film
          least = merge(least, 1.0e-3_wp*gap(i), least > 1.0e-3_wp*gap(i))
          kept = (least - film)/gamma
-         v(i) = merge(v(i), kept, v(i) > kept)
+         v(i) = merge(new, kept, new > kept)
       end do
-   end subroutine keep_open
+   end subroutine predict
 
    !> Add Newton's correction to some lanes; `left` is what remains of their error over tolerance, `open` tells that some
    !> have more than they may.
