@@ -6,8 +6,9 @@ module rv_cli_commands
    use rv_cli_output, only : complain, exit_bad, exit_fine, remark, say, status_of
    use rv_cli_progress, only : duration_text, progress_bar
    use rv_cli_report, only : counted, report_run
+   use rv_crew, only : crew_type
    use rv_deck, only : deck_type, read_deck
-   use rv_error, only : error_type
+   use rv_error, only : error_type, fail, rv_bad_input
    use rv_faults, only : fault_list
    use rv_inputs, only : new_manifest
    use rv_key_text, only : write_template
@@ -17,7 +18,7 @@ module rv_cli_commands
    use rv_modes, only : modes_text
    use rv_posix, only : catch_signals, is_terminal, seconds
    use rv_room, only : expected_room, room_type, size_text
-   use rv_run, only : merge_folder, run_deck, run_options, run_outcome
+   use rv_run, only : merge_folder, run_options, run_outcome, run_with_crew
    use rv_text, only : to_text
    implicit none
    private
@@ -32,29 +33,60 @@ module rv_cli_commands
 
 contains
 
-   integer function run_command(arguments) result(status)
+   integer function run_command(arguments, crew) result(status)
       type(arguments_type), intent(in) :: arguments
+      class(crew_type), intent(inout) :: crew
       type(deck_type) :: deck
       type(run_options) :: options
       type(run_outcome) :: outcome
       type(progress_bar) :: progress
       type(error_type), allocatable :: error
+      logical :: loaded
 
-      status = load_deck(arguments, deck)
-      if (status /= exit_fine) return
+      ! before all meet: no rank begins a run that another would be killed in by a mere word to stop
+      progress%quiet = arguments%quiet .or. .not. crew%leads
+      call watch_signals(progress%quiet)
+      call load_for_all(arguments, crew, deck, loaded, status)
+      if (.not. loaded) return
       options%folder = arguments%folder
       if (options%folder == "") options%folder = deck%name
       options%threads = arguments%threads
+      if (options%threads == 0) options%threads = crew%usual_threads
       options%resume = arguments%resume
       options%force = arguments%force
       options%slice = arguments%slice
       options%slices = arguments%slices
-      progress%quiet = arguments%quiet
-      call watch_signals(arguments%quiet)
-      call run_deck(deck, options, progress, outcome, error)
+      call run_with_crew(deck, options, crew, progress, outcome, error)
+      if (.not. crew%leads) return
       call progress%clear()
       status = report_run(arguments, options%folder, outcome, error)
    end function run_command
+
+   !> Every process reads the deck by itself, the leader tells what is wrong. Only if all of them can run it is it
+   !> loaded for any.
+   subroutine load_for_all(arguments, crew, deck, loaded, status)
+      type(arguments_type), intent(in) :: arguments
+      class(crew_type), intent(inout) :: crew
+      type(deck_type), intent(out) :: deck
+      logical, intent(out) :: loaded
+      integer, intent(out) :: status              !! for the end of the program; the leader's counts
+      type(fault_list) :: faults
+      type(error_type), allocatable :: error
+
+      status = exit_fine
+      if (crew%leads) then
+         status = load_deck(arguments, deck)
+         if (status /= exit_fine) call fail(error, rv_bad_input, "the leader has told why")
+      else
+         call read_deck(arguments%operand, deck, faults, error)
+         if (.not. allocated(error) .and. faults%errors() > 0) call fail(error, rv_bad_input, faults%text(1))
+      end if
+      call crew%share(error)
+      loaded = .not. allocated(error)
+      if (loaded .or. status /= exit_fine .or. .not. crew%leads) return
+      call complain(error%message)
+      status = status_of(error)
+   end subroutine load_for_all
 
    integer function merge_command(arguments) result(status)
       type(arguments_type), intent(in) :: arguments

@@ -24,7 +24,8 @@ module rv_crew
 
    type, abstract :: crew_type
       integer :: processes = 1
-      logical :: leads = .true.   !! this process opens the folder, merges and speaks for all
+      integer :: usual_threads = 0   !! of each process, where none are asked for; 0: as many as OpenMP offers
+      logical :: leads = .true.      !! this process opens the folder, merges and speaks for all
    contains
       procedure(add_to_counter), deferred :: add
       procedure(share_failure), deferred :: share

@@ -53,7 +53,6 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(results_folder) :: folder
       type(plan_type) :: plan
-      logical :: is_open, is_complete
 
       call new_manifest(deck, plan%manifest)
       plan%identity = plan%manifest%identity()
@@ -64,25 +63,45 @@ contains
       outcome%threads = options%threads
       if (options%threads == 0) outcome%threads = omp_get_max_threads()
       outcome%threads = min(outcome%threads, max(1, outcome%own_blocks))
-      is_open = .false.
-      if (crew%leads) then
-         call folder%open(options%folder, merge(to_run_slice, to_run, options%is_slice()), error)
-         is_open = .not. allocated(error)
-         outcome%unlocked = .not. folder%has_lock
-      else
-         call folder%name(options%folder)
-      end if
-      if (is_open) call prepare_folder(folder, options, plan, outcome, error)
-      if (is_open .and. outcome%was_complete) call set_counter(crew, count_complete)
-      call crew%share(error)
-      is_complete = counted(crew, count_complete) > 0
-      if (.not. (allocated(error) .or. is_complete)) then
+      call enter_folder(folder, options, plan, crew, outcome, error)
+      if (.not. (allocated(error) .or. outcome%was_complete)) then
          call run_and_merge(deck, folder, options, plan, crew, monitor, outcome, error)
       end if
-      if (.not. is_open) return
+      if (.not. crew%leads) return
       if (plan%is_new .and. outcome%new_blocks == 0) call drop_empty_parts(folder)
       call folder%close()
    end subroutine run_with_crew
+
+   !> The leader opens and prepares the folder for all.
+   subroutine enter_folder(folder, options, plan, crew, outcome, error)
+      type(results_folder), intent(inout) :: folder
+      type(run_options), intent(in) :: options
+      type(plan_type), intent(inout) :: plan
+      class(crew_type), intent(inout) :: crew
+      type(run_outcome), intent(inout) :: outcome
+      type(error_type), allocatable, intent(out) :: error
+      integer(i8) :: before
+
+      if (crew%leads) then
+         call folder%open(options%folder, merge(to_run_slice, to_run, options%is_slice()), error)
+         outcome%unlocked = .not. folder%has_lock
+         if (.not. allocated(error)) call prepare_folder(folder, options, plan, outcome, error)
+         if (outcome%was_complete) call crew%add(count_complete, 1_i8, before)
+      else
+         call folder%name(options%folder)
+      end if
+      call crew%share(error)
+      if (allocated(error)) return
+      outcome%was_complete = counted(crew, count_complete) > 0
+      if (crew%leads .and. .not. outcome%was_complete) then
+         call count_finished(folder, outcome)
+         call check_disk(folder, options, plan%manifest, outcome, error)
+      else if (.not. crew%leads) then
+         ! who sees another folder or another deck has to say so before it writes parts
+         call check_parts(folder, plan, error)
+      end if
+      call crew%share(error)
+   end subroutine enter_folder
 
    !> All blocks, then the results; the leader alone writes what is not a part.
    subroutine run_and_merge(deck, folder, options, plan, crew, monitor, outcome, error)
@@ -98,21 +117,13 @@ contains
 
       start = seconds()
       if (crew%leads) then
-         call count_finished(folder, outcome)
          call log_line(folder, outcome, "run of '"//deck%name//"'"//slice_text(options)//" with reedvalve "//code_version &
             & //", cases: "//to_text(plan%manifest%cases)//", blocks: "//to_text(plan%manifest%blocks) &
             & //", finished before: "//to_text(outcome%finished_blocks)//", processes: "//to_text(outcome%processes) &
             & //", threads of each: "//to_text(outcome%threads))
-         call check_disk(folder, options, plan%manifest, outcome, error)
-      else
-         ! a process that sees another folder or another deck has to say so before it writes parts
-         call check_parts(folder, plan, error)
       end if
+      call run_blocks(deck, folder, options, plan, outcome%threads, crew, monitor, error)
       call crew%share(error)
-      if (.not. allocated(error)) then
-         call run_blocks(deck, folder, options, plan, outcome%threads, crew, monitor, error)
-         call crew%share(error)
-      end if
       call sum_up(crew, outcome)
       if (crew%leads) then
          call count_finished(folder, outcome)
@@ -159,14 +170,6 @@ contains
 
       call crew%add(counter, 0_i8, counted)
    end function counted
-
-   subroutine set_counter(crew, counter)
-      class(crew_type), intent(inout) :: crew
-      integer, intent(in) :: counter
-      integer(i8) :: before
-
-      call crew%add(counter, 1_i8, before)
-   end subroutine set_counter
 
    !> Write the results of a run whose blocks are all finished, from nothing but its folder.
    subroutine merge_folder(path, threads, monitor, outcome, error)

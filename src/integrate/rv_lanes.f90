@@ -30,6 +30,7 @@ module rv_lanes
    !> steps to the instant of its closing, for ever where rounding keeps its last gap open.
    real(wp), parameter :: no_progress = 1.0e-13_wp
    integer, parameter :: patience = 10
+   real(wp), parameter :: out_of_bounds = 1.0e30_wp   !! an acceleration [m s-2]
    integer(c_int), parameter :: rv_stuck = -1000_c_int  !! beside ARKODE's flags: its steps are no progress
 
    !> Butcher table: fifth order, stiffly accurate, L-stable (Kennedy & Carpenter 2019, doi:10.1016/j.apnum.2018.10.007).
@@ -78,6 +79,7 @@ module rv_lanes
       type(stage_guess) :: guess
       integer :: failed = 0                                !! lane whose stage had no solution last
       logical :: closed = .false.                          !! because its film was closed
+      logical :: is_explicit = .false.                     !! how it is integrated
       integer :: hindrance = 0                             !! lane whose stage had no solution most recently
    end type problem_type
 
@@ -189,7 +191,10 @@ contains
          t = step%t1
          flag = rv_arkode_step(integrator, stops(k), t, y_new)
          short = merge(short + 1, 0, t - step%t1 < no_progress*(settings%t_end - problem%history%start))
-         if (short == 0 .and. allocated(problem%lanes%closure)) deallocate(problem%lanes%closure)
+         if (flag >= 0 .and. short == 0) then
+            problem%closed = .false.
+            if (allocated(problem%lanes%closure)) deallocate(problem%lanes%closure)
+         end if
          if (flag >= 0 .and. short >= patience) then
             flag = rv_stuck
             problem%failed = problem%hindrance
@@ -317,7 +322,7 @@ contains
    end subroutine pose
 
    logical function start_integrator(problem, settings, y, integrator, outcome) result(started)
-      type(problem_type), intent(in), target :: problem
+      type(problem_type), intent(inout), target :: problem
       type(lane_settings), intent(in) :: settings
       real(c_double), intent(in) :: y(:)
       type(c_ptr), intent(out) :: integrator
@@ -327,6 +332,7 @@ contains
 
       outcome%is_explicit = settings%method == method_explicit &
          & .or. settings%method == method_auto .and. maxval(problem%lanes%stiffness_ratio()) <= explicit_up_to
+      problem%is_explicit = outcome%is_explicit
       if (outcome%is_explicit) then
          flag = rv_arkode_new(int(problem%lanes%width, c_int), int(2*problem%lanes%dofs, c_int), problem%history%start, y, &
             & explicit_table, first_step(problem), c_funloc(rhs), c_null_funptr, c_funloc(weights), c_loc(problem), integrator)
@@ -391,7 +397,8 @@ contains
       is_finite = some == 0_i8
    end function is_finite
 
-   !> ARKODE's right-hand side. 1 where a film is closed: ARKODE then tries a smaller step.
+   !> ARKODE's right-hand side. 1 where a film is closed: ARKODE then tries a smaller step. In an explicit stage it would
+   !> give up instead; there an acceleration out of all bounds makes it reject the step.
    integer(c_int) function rhs(t, y, ydot, data) bind(C)
       real(c_double), value :: t
       real(c_double), intent(in) :: y(*)
@@ -409,10 +416,14 @@ contains
       end associate
       rhs = 0
       if (closed == 0) return
-      problem%failed = closed
       problem%hindrance = closed
       problem%closed = .true.
-      rhs = 1
+      if (problem%is_explicit) then
+         ydot(problem%half + closed) = out_of_bounds
+      else
+         problem%failed = closed
+         rhs = 1
+      end if
    end function rhs
 
    !> ARKODE's stage. 1 where a lane has no solution.

@@ -93,13 +93,15 @@ mkdir -p mine2
 expect 0 'none failed' run deck.nml -o mine2///
 holds "slashes at the end do no harm" test -e mine2/results.nc
 
-# two runs in one folder
+# two runs in one folder; the first is held still, to be sure that it is there
 "$program" run deck.nml -o shared --quiet --threads 1 &
 first=$!
-while kill -0 $first 2>/dev/null && [ ! -e shared/parts/manifest ]; do sleep 0.005; done
+while kill -0 $first 2>/dev/null && [ ! -e shared/parts/manifest ]; do :; done
+kill -STOP $first
 expect 3 "another run is at work in 'shared' \(process $first on .*\): wait" run deck.nml -o shared
 expect 3 "another run is at work" run deck.nml -o shared --force
 expect 3 "another run is at work" merge shared
+kill -CONT $first
 wait $first
 same whole shared
 
