@@ -162,8 +162,8 @@ contains
       end do
    end subroutine solve_scalar
 
-   !> What is known of q and v, and v with accelerations drawn on from earlier ones, but so that no film closes and none
-   !> loses more than nine tenths.
+   !> What is known of q and v, and v with accelerations drawn on from earlier ones, but so that no film closes: a
+   !> thousandth of the gap stays, or a tenth of the film that is known where that is less.
    pure subroutine predict(n, gamma, drawn, q_n, v_n, known_q, known_v, gap, a_old, a_older, base_q, base_v, v)
       integer, intent(in) :: n
       real(wp), intent(in) :: gamma, drawn(2)
