@@ -158,7 +158,7 @@ static sunrealtype lanes_min(N_Vector x) {
 typedef double octet __attribute__((vector_size(64), aligned(8), may_alias));
 typedef long long octet_mask __attribute__((vector_size(64), aligned(8), may_alias));
 
-/* The largest of the lanes' norms; a NaN in any lane makes it NaN, which ARKODE rejects. */
+/* The largest of the lanes' norms; an error that is not finite is as large as to be rejected. */
 static sunrealtype lanes_wrms_norm(N_Vector x, N_Vector w) {
   const lane_content *c = x->content;
   const double *xd = values(x), *wd = values(w);
@@ -191,7 +191,7 @@ static sunrealtype lanes_wrms_norm(N_Vector x, N_Vector w) {
     largest = sum > largest ? sum : largest;
     bad |= !(sum <= DBL_MAX);
   }
-  return bad ? NAN : sqrt(largest / c->states);
+  return bad ? 1.0e30 : sqrt(largest / c->states);
 }
 
 /* z = sum of c[j] x[j] in one pass, sixteen entries at a time; ARKODE lets z be x[0]. */

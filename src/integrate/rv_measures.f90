@@ -312,24 +312,22 @@ contains
 
          if (upwards) then
             do k = 1, n_up
-               if (passes(from, to, up_level(k)*self%steady(i), upwards)) &
-                  & call note(self%up(i, k), up_level(k)*self%steady(i), s_from, s_to)
+               call note(self%up(i, k), from, to, up_level(k)*self%steady(i), s_from, s_to)
             end do
          else
             do k = 1, n_down
-               if (passes(from, to, down_level(k)*self%steady(i), upwards)) &
-                  & call note(self%down(i, k), down_level(k)*self%steady(i), s_from, s_to)
+               call note(self%down(i, k), from, to, down_level(k)*self%steady(i), s_from, s_to)
             end do
          end if
       end subroutine look
 
       !> Keep the first crossing only.
-      subroutine note(t, level, s_from, s_to)
+      subroutine note(t, from, to, level, s_from, s_to)
          real(wp), intent(inout) :: t
-         real(wp), intent(in) :: level, s_from, s_to
+         real(wp), intent(in) :: from, to, level, s_from, s_to
          real(wp) :: distance(0:5)
 
-         if (t >= self%start) return
+         if (t >= self%start .or. .not. passes(from, to, level, upwards)) return
          distance = c
          distance(0) = c(0) - level
          t = step%t0 + (step%t1 - step%t0)*first_root(distance, s_from, s_to)

@@ -16,6 +16,7 @@ program test_methods
    call agreement(1.0e-7_wp)
    call choice()
    call closed_film()
+   call trial_stages()
    call suite%finish()
 
 contains
@@ -112,5 +113,23 @@ contains
       call suite%true("the lane on its seat fails: "//outcome%message(1)%s, outcome%status(1) /= status_ok)
       call suite%true("its neighbour ends well", outcome%status(2) == status_ok)
    end subroutine closed_film
+
+   !> A trial stage that runs through the seat costs the step, not the case: thin oil, far openings, one case at a time.
+   subroutine trial_stages()
+      type(lane_outcome) :: outcome
+      integer :: i, j, k, failed
+
+      failed = 0
+      do i = 0, 3
+         do j = 0, 3
+            do k = 0, 3
+               call run_lumped([valve_at(4.0_wp*5.0_wp**i*kpa, 0.05_wp*2.0_wp**j*mm, k_s, 1.0e-3_wp*4.0_wp**k)], wave_40ms(), &
+                  & settings_of(method_explicit, 1.0e-4_wp), no_times, outcome)
+               if (outcome%status(1) /= status_ok) failed = failed + 1
+            end do
+         end do
+      end do
+      call suite%equal("explicit cases that fail, of 64", failed, 0)
+   end subroutine trial_stages
 
 end program test_methods
