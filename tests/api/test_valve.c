@@ -272,6 +272,10 @@ static void test_measured_pressure(void) {
   rv_valve_message(valve, text, sizeof text);
   CHECK(strstr(text, "pressure.file has no effect") != NULL);
   rv_valve_free(&valve);
+  if (system("mkdir -p api_folder && mv api_trace.csv api_trace.nml api_folder") != 0) return;
+  CHECK(rv_valve_new_deck("api_folder/api_trace.nml", &valve, text, sizeof text) == RV_OK);
+  GOOD(valve, rv_valve_run(valve));
+  rv_valve_free(&valve);
 }
 
 int main(void) {
