@@ -62,15 +62,19 @@ module rv_block
 contains
 
    !> Run cases first..last of the deck. Failures are per case and never end the block.
-   subroutine run_block(deck, first, last, result)
+   subroutine run_block(deck, first, last, result, cache)
       type(deck_type), intent(in) :: deck
       integer(i8), intent(in) :: first, last   !! 1 <= first <= last <= case_count
       type(block_result), intent(out) :: result
-      type(planform_cache) :: cache
+      type(planform_cache), intent(inout), optional, target :: cache   !! of whoever runs block after block
+      type(planform_cache), target :: own
+      type(planform_cache), pointer :: planform
       real(wp), allocatable :: value(:, :), order_by(:, :), time(:)
       integer, allocatable :: order(:)
       integer :: n, i, top, widest
 
+      planform => own
+      if (present(cache)) planform => cache
       n = int(last - first) + 1
       allocate(value(n_keys, n), order_by(n_shared + 2, n))
       time = trace_times(deck)
@@ -87,7 +91,7 @@ contains
       do while (i <= n)
          widest = min(n, i - 1 + widest_group(deck, value(:, order(i))))
          top = i - 1 + length_of_group(order_by(:n_shared, order(i:widest)))
-         call run_group(deck, value(:, order(i:top)), order(i:top), time, cache, result)
+         call run_group(deck, value(:, order(i:top)), order(i:top), time, planform, result)
          i = top + 1
       end do
    end subroutine run_block
