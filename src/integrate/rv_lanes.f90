@@ -43,7 +43,7 @@ module rv_lanes
    character(kind=c_char, len=*), parameter :: explicit_table = "ARKODE_CASH_KARP_6_4_5"//c_null_char
 
    !> Stiffest lane, as stiffness_ratio has it, that method_auto still integrates explicitly: where both took equally long
-   !> for the reed of the paper, at a gap of some 0.055 mm.
+   !> to the same error for the reed of the paper, at a gap of some 0.06 mm.
    real(wp), parameter :: explicit_up_to = 5.0_wp
 
    !> How to integrate.

@@ -162,8 +162,8 @@ contains
       end do
    end subroutine solve_scalar
 
-   !> What is known of q and v, and v with accelerations drawn on from earlier ones, but so that no film closes and none
-   !> loses more than nine tenths.
+   !> What is known of q and v, and v with accelerations drawn on from earlier ones, but so that no film closes: a
+   !> thousandth of the gap stays, or a tenth of the film that is known where that is less.
    pure subroutine predict(n, gamma, drawn, q_n, v_n, known_q, known_v, gap, a_old, a_older, base_q, base_v, v)
       integer, intent(in) :: n
       real(wp), intent(in) :: gamma, drawn(2)
@@ -229,12 +229,12 @@ contains
       logical, intent(out) :: closed
       real(wp), dimension(lanes%width, lanes%dofs) :: a, correction
       real(wp), dimension(lanes%width, lanes%dofs, lanes%dofs) :: a_q, a_v
-      logical :: open(lanes%width)
+      logical :: unsolved(lanes%width)
       integer :: halvings(lanes%width), iteration, i
 
       correction = base_v + gamma*predicted
       v = 0.0_wp   ! halving leads from the prediction back to the start of the step
-      open = .true.
+      unsolved = .true.
       do iteration = 1, max_iterations
          halvings = 0
          do
@@ -249,9 +249,9 @@ contains
          if (failed > 0) exit
          do i = 1, lanes%width
             call newton(v(i, :) - base_v(i, :) - gamma*a(i, :), a_q(i, :, :), a_v(i, :, :), correction(i, :))
-            open(i) = .not. all(abs(correction(i, :))*weight(i, :) <= accuracy)
+            unsolved(i) = .not. all(abs(correction(i, :))*weight(i, :) <= accuracy)
          end do
-         if (any(open)) cycle
+         if (any(unsolved)) cycle
          v = v + correction
          exit
       end do
@@ -259,7 +259,7 @@ contains
       q = base_q + gamma*v
       closed = .false.
       if (failed > 0) closed = .not. any(ieee_is_nan(q(failed, :)))
-      if (failed == 0) failed = first_true(open)
+      if (failed == 0) failed = first_true(unsolved)
 
    contains
 

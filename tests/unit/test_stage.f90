@@ -360,13 +360,16 @@ contains
          q = base_q
          call solve(lanes, inlet, outlet, gamma, base_q, base_v, weight, q, v, failed, closed)
          call suite%true("gamma = "//to_text(gamma, 1)//" s: the system is solved", failed == 0)
-         call suite%true("q follows v", all(abs(q - (base_q + gamma*v)) <= some_ulp*(abs(base_q) + abs(gamma*v))))
          w = reshape(sum(base_v, 2), [width, 1])
          u = w
          call solve(lumped, inlet, outlet, gamma, reshape(sum(base_q, 2), [width, 1]), reshape(sum(base_v, 2), [width, 1]), &
             & weight(:, 1:1), u, w, failed, closed)
          call suite%close("its sum is the lumped reed's velocity, over rtol", maxval(abs(sum(v, 2) - w(:, 1))*weight(:, 1)), &
             & 0.0_wp, 0.0_wp, 1.0e-3_wp)
+         v = base_v
+         call solve(lanes, inlet, outlet, gamma, base_q, base_v, 1.0e-6_wp*weight, q, v, failed, closed)
+         call suite%true("q follows v, however rough", all(abs(q - (base_q + gamma*v)) &
+            & <= some_ulp*(abs(base_q) + abs(gamma*v))))
       end do
    end subroutine system_as_scalar
 
