@@ -14,7 +14,7 @@ module rv_deck
    use rv_cases, only : deck_type, axis_type
    implicit none
    private
-   public :: deck_type, axis_type, read_deck
+   public :: deck_type, axis_type, read_deck, start_deck
 
    integer(int64), parameter :: most_bytes = 8388608_int64
 

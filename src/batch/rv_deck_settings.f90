@@ -11,7 +11,7 @@ module rv_deck_settings
    use rv_cases, only : axis_type, deck_type
    implicit none
    private
-   public :: read_settings, default_by_model
+   public :: read_settings, default_by_kind, default_by_model
 
    real(wp), parameter :: square_wave_end = 40.0e-3_wp  !! default of run.t_end_ms for square waves [s]
 

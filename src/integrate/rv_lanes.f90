@@ -54,6 +54,8 @@ module rv_lanes
       logical :: from_equilibrium = .false.  !! start at the static equilibrium, else at rest on u = 0
       integer :: method = method_implicit
       real(wp) :: fixed_step = 0.0_wp        !! [s]; > 0: no step control (for studies of convergence)
+      real(wp) :: first_step = 0.0_wp        !! to try first [s]; 0: chosen here
+      real(wp), allocatable :: state(:)      !! to start from, as an outcome's; unallocated: at rest or equilibrium
    end type lane_settings
 
    !> What came out; arrays end in (width).
@@ -66,6 +68,8 @@ module rv_lanes
       real(wp), allocatable :: lowest_pressure(:) !! lowest pressure seen in the film [Pa]; huge if none was
       integer :: steps = 0                       !! accepted
       logical :: is_explicit = .false.           !! how the group was integrated
+      real(wp), allocatable :: state(:)          !! at the end: displacements [m] (width*dofs), then velocities [m s-1]
+      real(wp) :: last_step = 0.0_wp             !! the longer of the last two: a stop may have cut the last one [s]
    end type lane_outcome
 
    !> What ARKODE's callbacks see.
@@ -109,7 +113,11 @@ contains
       end do
       call pose(problem, lanes, history, settings%rtol)
       allocate(y(2*problem%half))
-      call initial_state(problem, settings%from_equilibrium, y, outcome)
+      if (allocated(settings%state)) then
+         y = settings%state
+      else
+         call initial_state(problem, settings%from_equilibrium, y, outcome)
+      end if
       call begin_step(problem, history%start, y, outcome%status == status_ok, step)
       call new_measure_lanes(measures, history%start, history%event, min(history%cycle_end, settings%t_end), &
          & steady_state(problem), step%u1, settings%rtol)
@@ -128,6 +136,7 @@ contains
          outcome%measure(:, i) = measures%results(i)
       end do
       outcome%lowest_pressure = problem%lanes%lowest_pressure
+      outcome%state = y
       call move_alloc(sampler%value, outcome%trace)
       call move_alloc(sampler%field, outcome%field)
    end subroutine run_lanes
@@ -157,13 +166,15 @@ contains
       y(:problem%half) = reshape(q, [problem%half])
    end subroutine initial_state
 
-   !> Static tip displacement at the event [m]; NaN where the reed would lie on its seat.
+   !> Static tip displacement at the event [m]; NaN where the reed would lie on its seat, or nothing is measured.
    function steady_state(problem) result(u)
       type(problem_type), intent(inout) :: problem
       real(wp) :: u(problem%lanes%width)
       real(wp) :: q(problem%lanes%width, problem%lanes%dofs), inlet, outlet
       logical :: found(problem%lanes%width)
 
+      u = ieee_value(1.0_wp, ieee_quiet_nan)
+      if (.not. problem%history%cycle_end > problem%history%start) return
       call problem%history%factors(problem%history%event, inlet, outlet)
       call problem%lanes%equilibrium(inlet, outlet, q, found)
       u = merge(matmul(q, problem%lanes%tip), ieee_value(1.0_wp, ieee_quiet_nan), found)
@@ -182,11 +193,13 @@ contains
       type(lane_outcome), intent(inout) :: outcome
       real(c_double) :: t, y_new(size(y))
       character(len=:), allocatable :: reason
+      real(wp) :: before
       integer(c_int) :: flag
       integer :: k, short
 
       k = 1
       short = 0
+      before = 0.0_wp
       do while (k <= size(stops))
          t = step%t1
          flag = rv_arkode_step(integrator, stops(k), t, y_new)
@@ -206,6 +219,8 @@ contains
             call end_step(problem, t, y, step)
             call measures%observe(step, problem%lanes, problem%history)
             call sampler%sample(step, problem%lanes, problem%history)
+            outcome%last_step = max(before, step%t1 - step%t0)
+            before = step%t1 - step%t0
             call step%advance()
             outcome%steps = outcome%steps + 1
             if (flag == rv_at_stop) k = k + 1
@@ -328,17 +343,20 @@ contains
       type(c_ptr), intent(out) :: integrator
       type(lane_outcome), intent(inout) :: outcome
       character(len=:), allocatable :: reason
+      real(wp) :: h
       integer(c_int) :: flag
 
+      h = settings%first_step
+      if (.not. h > 0.0_wp) h = first_step(problem)
       outcome%is_explicit = settings%method == method_explicit &
          & .or. settings%method == method_auto .and. maxval(problem%lanes%stiffness_ratio()) <= explicit_up_to
       problem%is_explicit = outcome%is_explicit
       if (outcome%is_explicit) then
          flag = rv_arkode_new(int(problem%lanes%width, c_int), int(2*problem%lanes%dofs, c_int), problem%history%start, y, &
-            & explicit_table, first_step(problem), c_funloc(rhs), c_null_funptr, c_funloc(weights), c_loc(problem), integrator)
+            & explicit_table, h, c_funloc(rhs), c_null_funptr, c_funloc(weights), c_loc(problem), integrator)
       else
          flag = rv_arkode_new(int(problem%lanes%width, c_int), int(2*problem%lanes%dofs, c_int), problem%history%start, y, &
-            & implicit_table, first_step(problem), c_funloc(rhs), c_funloc(stage), c_funloc(weights), c_loc(problem), integrator)
+            & implicit_table, h, c_funloc(rhs), c_funloc(stage), c_funloc(weights), c_loc(problem), integrator)
       end if
       if (flag >= 0 .and. settings%fixed_step > 0.0_wp) flag = rv_arkode_fix_step(integrator, settings%fixed_step)
       started = flag >= 0

@@ -1,0 +1,300 @@
+!> C API: whole cases, their measures and traces, and sweeps of many cases. See reedvalve.h.
+module rv_api_run
+   use, intrinsic :: iso_c_binding, only : c_associated, c_double, c_f_pointer, c_int, c_ptr, c_size_t
+   use rv_kinds, only : i8
+   use omp_lib, only : omp_get_max_threads
+   use rv_error, only : error_type, rv_bad_input
+   use rv_api_call, only : begin_call, refuse, settle, code_of_status, put_number, rv_ok, no_pointer, no_text
+   use rv_block, only : block_bounds, block_count, block_result, run_block, trace_times, n_measures, n_traces, &
+      & column_type, measure_columns, trace_columns
+   use rv_c_text, only : give_text, take_text
+   use rv_deck, only : deck_type
+   use rv_handles, only : valve_type
+   use rv_text, only : text_type
+   implicit none
+   private
+   public :: rv_valve_run, rv_valve_status, rv_valve_measure, rv_measure_count, rv_measure_name, rv_measure_unit
+   public :: rv_valve_trace_size, rv_valve_trace_times, rv_valve_trace, rv_trace_count, rv_trace_name, rv_trace_unit
+   public :: rv_sweep
+
+   integer, parameter :: most_threads = 1024
+   integer(c_size_t), parameter :: most_cases = 2000000000_c_size_t
+   character(len=*), parameter :: not_run = "there are no results: rv_valve_run must come first, after all settings"
+
+contains
+
+   integer(c_int) function rv_valve_run(self) result(code) bind(C)
+      type(c_ptr), value :: self
+      type(valve_type), pointer :: valve
+      type(error_type), allocatable :: error
+      character(len=:), allocatable :: warnings
+
+      call begin_call(self, valve, code)
+      if (.not. associated(valve)) return
+      valve%has_run = .false.
+      !$omp critical (rv_api_text)
+      call valve%setup%check(warnings, error)
+      !$omp end critical (rv_api_text)
+      call settle(valve, error, code)
+      if (allocated(error)) return
+      valve%time = trace_times(valve%setup%ready)
+      call run_block(valve%setup%ready, 1_i8, 1_i8, valve%result)
+      valve%has_run = .true.
+      valve%message = warnings//valve%result%message(1)%s
+      code = code_of_status(valve%result%status(1))
+   end function rv_valve_run
+
+   integer(c_int) function rv_valve_status(self, status) result(code) bind(C)
+      type(c_ptr), value :: self, status
+      type(valve_type), pointer :: valve
+      integer(c_int), pointer :: place
+
+      call begin_results(self, status, valve, code)
+      if (code /= rv_ok) return
+      call c_f_pointer(status, place)
+      place = valve%result%status(1)
+   end function rv_valve_status
+
+   integer(c_int) function rv_valve_measure(self, name, value) result(code) bind(C)
+      type(c_ptr), value :: self, name, value
+      type(valve_type), pointer :: valve
+      character(len=:), allocatable :: word
+      logical :: taken
+      integer :: i
+
+      call begin_results(self, value, valve, code)
+      if (code /= rv_ok) return
+      call take_text(name, word, taken)
+      if (.not. taken) then
+         call refuse(valve, no_text, code)
+         return
+      end if
+      associate (column => measure_columns())
+         do i = 1, n_measures
+            if (column(i)%name == word) exit
+         end do
+         if (i > n_measures) then
+            call refuse(valve, "'"//word//"': there is no such measure", code)
+         else
+            call put_number(valve%result%measure(i, 1)*column(i)%to_unit, value)
+         end if
+      end associate
+   end function rv_valve_measure
+
+   !> A call that asks for results and tells them through a pointer.
+   subroutine begin_results(self, pointer, valve, code)
+      type(c_ptr), intent(in) :: self, pointer
+      type(valve_type), pointer, intent(out) :: valve
+      integer(c_int), intent(out) :: code
+
+      call begin_call(self, valve, code)
+      if (.not. associated(valve)) return
+      if (.not. valve%has_run) call refuse(valve, not_run, code)
+      if (.not. c_associated(pointer)) call refuse(valve, no_pointer, code)
+   end subroutine begin_results
+
+   integer(c_int) function rv_measure_count() result(n) bind(C)
+      n = n_measures
+   end function rv_measure_count
+
+   integer(c_int) function rv_measure_name(i, buffer, size) result(code) bind(C)
+      integer(c_int), value :: i
+      type(c_ptr), value :: buffer
+      integer(c_size_t), value :: size
+
+      call give_column(measure_columns(), i, .true., buffer, size, code)
+   end function rv_measure_name
+
+   integer(c_int) function rv_measure_unit(i, buffer, size) result(code) bind(C)
+      integer(c_int), value :: i
+      type(c_ptr), value :: buffer
+      integer(c_size_t), value :: size
+
+      call give_column(measure_columns(), i, .false., buffer, size, code)
+   end function rv_measure_unit
+
+   integer(c_int) function rv_trace_count() result(n) bind(C)
+      n = n_traces
+   end function rv_trace_count
+
+   integer(c_int) function rv_trace_name(i, buffer, size) result(code) bind(C)
+      integer(c_int), value :: i
+      type(c_ptr), value :: buffer
+      integer(c_size_t), value :: size
+
+      call give_column(trace_columns(), i, .true., buffer, size, code)
+   end function rv_trace_name
+
+   integer(c_int) function rv_trace_unit(i, buffer, size) result(code) bind(C)
+      integer(c_int), value :: i
+      type(c_ptr), value :: buffer
+      integer(c_size_t), value :: size
+
+      call give_column(trace_columns(), i, .false., buffer, size, code)
+   end function rv_trace_unit
+
+   !> Name or unit of the i-th column, from 0.
+   subroutine give_column(column, i, is_name, buffer, size, code)
+      type(column_type), intent(in) :: column(0:)
+      integer(c_int), intent(in) :: i
+      logical, intent(in) :: is_name
+      type(c_ptr), intent(in) :: buffer
+      integer(c_size_t), intent(in) :: size
+      integer(c_int), intent(out) :: code
+
+      code = rv_bad_input
+      call give_text("", buffer, size)
+      if (i < 0 .or. i > ubound(column, 1)) return
+      if (is_name) call give_text(trim(column(i)%name), buffer, size)
+      if (.not. is_name) call give_text(trim(column(i)%unit), buffer, size)
+      code = rv_ok
+   end subroutine give_column
+
+   integer(c_int) function rv_valve_trace_size(self, samples) result(code) bind(C)
+      type(c_ptr), value :: self, samples
+      type(valve_type), pointer :: valve
+      integer(c_size_t), pointer :: place
+
+      call begin_results(self, samples, valve, code)
+      if (code /= rv_ok) return
+      call c_f_pointer(samples, place)
+      place = size(valve%time, kind=c_size_t)
+   end function rv_valve_trace_size
+
+   integer(c_int) function rv_valve_trace_times(self, times, samples) result(code) bind(C)
+      type(c_ptr), value :: self, times
+      integer(c_size_t), value :: samples
+      type(valve_type), pointer :: valve
+      real(c_double), pointer :: place(:)
+
+      call begin_results(self, times, valve, code)
+      if (code == rv_ok) call check_samples(valve, samples, code)
+      if (code /= rv_ok) return
+      call c_f_pointer(times, place, [samples])
+      place = valve%time
+   end function rv_valve_trace_times
+
+   integer(c_int) function rv_valve_trace(self, i, values, samples) result(code) bind(C)
+      type(c_ptr), value :: self, values
+      integer(c_int), value :: i
+      integer(c_size_t), value :: samples
+      type(valve_type), pointer :: valve
+      real(c_double), pointer :: place(:)
+
+      call begin_results(self, values, valve, code)
+      if (code == rv_ok) call check_samples(valve, samples, code)
+      if (code /= rv_ok) return
+      if (i < 0 .or. i >= size(valve%result%trace, 2)) then
+         call refuse(valve, "this model has no such trace", code)
+         return
+      end if
+      call c_f_pointer(values, place, [samples])
+      associate (column => trace_columns())
+         place = valve%result%trace(:, i + 1, 1)*column(i + 1)%to_unit
+      end associate
+   end function rv_valve_trace
+
+   subroutine check_samples(valve, samples, code)
+      type(valve_type), intent(inout) :: valve
+      integer(c_size_t), intent(in) :: samples
+      integer(c_int), intent(inout) :: code
+
+      if (samples == size(valve%time, kind=c_size_t)) return
+      call refuse(valve, "the array must have as many elements as rv_valve_trace_size tells", code)
+   end subroutine check_samples
+
+   integer(c_int) function rv_sweep(self, n_keys, keys, n_cases, values, measures, status, threads) result(code) bind(C)
+      type(c_ptr), value :: self, keys, values, measures, status
+      integer(c_int), value :: n_keys, threads
+      integer(c_size_t), value :: n_cases
+      type(valve_type), pointer :: valve
+      type(text_type), allocatable :: names(:)
+      type(error_type), allocatable :: error
+      type(deck_type) :: deck
+      real(c_double), pointer :: number(:, :), measure(:, :)
+      integer(c_int), pointer :: ends(:)
+
+      call begin_call(self, valve, code)
+      if (.not. associated(valve)) return
+      call take_names(valve, n_keys, keys, names, code)
+      if (code /= rv_ok) return
+      if (.not. (c_associated(values) .and. c_associated(measures) .and. c_associated(status))) then
+         call refuse(valve, no_pointer, code)
+      else if (n_cases < 1 .or. n_cases > most_cases) then
+         call refuse(valve, "a sweep has from 1 to 2000000000 cases", code)
+      else if (threads < 0 .or. threads > most_threads) then
+         call refuse(valve, "a sweep takes from 1 to 1024 threads; 0: as many as OpenMP offers", code)
+      end if
+      if (code /= rv_ok) return
+      call c_f_pointer(values, number, [int(n_keys, c_size_t), n_cases])
+      call c_f_pointer(measures, measure, [int(n_measures, c_size_t), n_cases])
+      call c_f_pointer(status, ends, [n_cases])
+      !$omp critical (rv_api_text)
+      call valve%setup%sweep(names, number, deck, valve%message, error)
+      !$omp end critical (rv_api_text)
+      call settle(valve, error, code)
+      if (.not. allocated(error)) call run_all(deck, merge(int(threads), omp_get_max_threads(), threads > 0), measure, ends)
+   end function rv_sweep
+
+   subroutine take_names(valve, n, keys, names, code)
+      type(valve_type), intent(inout) :: valve
+      integer(c_int), intent(in) :: n
+      type(c_ptr), intent(in) :: keys
+      type(text_type), allocatable, intent(out) :: names(:)
+      integer(c_int), intent(out) :: code
+      type(c_ptr), pointer :: name(:)
+      logical :: taken
+      integer :: i
+
+      code = rv_ok
+      if (n < 1 .or. n > 64) then
+         call refuse(valve, "a sweep varies from 1 to 64 keys", code)
+      else if (.not. c_associated(keys)) then
+         call refuse(valve, no_pointer, code)
+      end if
+      if (code /= rv_ok) return
+      call c_f_pointer(keys, name, [n])
+      allocate(names(n))
+      do i = 1, n
+         call take_text(name(i), names(i)%s, taken)
+         if (.not. taken) call refuse(valve, no_text, code)
+      end do
+   end subroutine take_names
+
+   !> All cases, cut into the blocks of a run of the same deck: the same bits.
+   subroutine run_all(deck, threads, measure, status)
+      type(deck_type), intent(in) :: deck
+      integer, intent(in) :: threads
+      real(c_double), intent(inout) :: measure(:, :)   !! in the measures' units
+      integer(c_int), intent(inout) :: status(:)
+      integer :: block, blocks
+
+      blocks = block_count(deck)
+      !$omp parallel do schedule(dynamic, 1) num_threads(min(threads, blocks)) default(none) &
+      !$omp& shared(deck, blocks, measure, status)
+      do block = 1, blocks
+         call run_one(deck, block, measure, status)
+      end do
+      !$omp end parallel do
+   end subroutine run_all
+
+   subroutine run_one(deck, block, measure, status)
+      type(deck_type), intent(in) :: deck
+      integer, intent(in) :: block
+      real(c_double), intent(inout) :: measure(:, :)
+      integer(c_int), intent(inout) :: status(:)
+      type(block_result) :: result
+      type(column_type) :: column(n_measures)
+      integer(i8) :: first, last
+      integer :: i
+
+      call block_bounds(deck, block, first, last)
+      call run_block(deck, first, last, result)
+      column = measure_columns()
+      do i = 1, n_measures
+         measure(i, first:last) = result%measure(i, :)*column(i)%to_unit
+      end do
+      status(first:last) = result%status
+   end subroutine run_one
+
+end module rv_api_run

@@ -1,0 +1,146 @@
+/* Random calls with good, odd and wrong arguments: no code but those of the header, no crash, no leak (run it under
+ * valgrind). `test_calls [sequences]`, each of up to twelve calls; the seed is fixed. */
+#include <stdint.h>
+
+#include "api_check.h"
+
+enum { places = 4, calls = 12 };
+
+static uint64_t seed = 5256;
+
+/* Marsaglia (2003), doi:10.18637/jss.v008.i14. */
+static unsigned draw(unsigned below) {
+  seed ^= seed << 13;
+  seed ^= seed >> 7;
+  seed ^= seed << 17;
+  return (unsigned)((seed >> 16) % below);
+}
+
+static double number(void) {
+  static const double some[] = {0.05, 0.0, -1.0, 20.0, 1.0, 2.0, 1e-3, 0.2, 6.0, NAN, INFINITY, 1e300, 1e-300, -0.0, 0.5, 3.0};
+  return some[draw(sizeof some / sizeof *some)];
+}
+
+static const char *word(void) {
+  static const char *const some[] = {"film.gap_mm",   "run.model",         "squeeze",         "traditional",  NULL,
+                                     "",              "pressure.kind",     "trace",           "0.05",         ".true.",
+                                     "run.traces",    "pressure.file",     "none.csv",        "\xff\xfe.\x01", "film.gap",
+                                     "steady_mm",     "reed.width_mm",     "solver.method",   "explicit",     "auto",
+                                     "hydro.load",    "none",              "run.t_end_ms",    "sweep.key",    "run.start",
+                                     "equilibrium",   "pressure.inlet_kpa", "closing_ms",     "film_table",   "a.b.c'\"\n"};
+  return some[draw(sizeof some / sizeof *some)];
+}
+
+static void check_code(int code) { CHECK(code >= RV_OK && code <= RV_DOMAIN); }
+
+static void call_state(rv_valve *valve) {
+  static char state[1000];
+  size_t bytes = draw(1000);
+  double t, next;
+  if (draw(4) > 0) check_code(rv_valve_state_size(valve, &bytes));
+  check_code(rv_valve_state_save(valve, draw(8) > 0 ? state : NULL, bytes));
+  if (draw(4) == 0) state[draw(sizeof state)] ^= 1;
+  check_code(rv_valve_state_restore(valve, state, bytes));
+  check_code(rv_valve_state(valve, draw(2) ? &t : NULL, NULL, NULL, draw(2) ? &next : NULL));
+}
+
+static void call_step(rv_valve *valve) {
+  static const double pressure[] = {0.0, 1e3, 2e4, -5e3, NAN};
+  double t = 0.0, out;
+  rv_valve_state(valve, &t, NULL, NULL, NULL);
+  if (draw(6) == 0) t = number();
+  if (!(t < 10.0)) t = 0.0; /* no run of hours */
+  check_code(rv_valve_step(valve, t + draw(5) * 5e-5, pressure[draw(5)], pressure[draw(4)], pressure[draw(4)], 0.0));
+  check_code(rv_valve_output(valve, (int)draw(12) - 1, draw(8) > 0 ? &out : NULL));
+}
+
+static void call_run(rv_valve *valve) {
+  double value, *trace;
+  size_t samples = 0;
+  int status;
+  rv_valve_set_real(valve, "run.t_end_ms", 0.1 * (1 + draw(5)));
+  rv_valve_set_real(valve, "run.trace_dt_ms", 0.05);
+  check_code(rv_valve_run(valve));
+  check_code(rv_valve_status(valve, draw(8) > 0 ? &status : NULL));
+  check_code(rv_valve_measure(valve, word(), &value));
+  if (rv_valve_trace_size(valve, &samples) != RV_OK) return;
+  trace = malloc((samples + 1) * sizeof *trace);
+  check_code(rv_valve_trace(valve, (int)draw(12) - 1, trace, samples));
+  check_code(rv_valve_trace_times(valve, trace, samples + (draw(8) == 0)));
+  free(trace);
+}
+
+static void call_sweep(rv_valve *valve) {
+  const char *keys[2] = {"film.gap_mm", draw(2) ? "pressure.inlet_kpa" : word()};
+  double values[6], measures[60];
+  int status[3];
+  CHECK(rv_measure_count() <= 20);
+  for (int i = 0; i < 6; i++) values[i] = draw(12) > 0 ? 0.03 * (1 + draw(3)) : number();
+  check_code(rv_sweep(valve, (int)draw(4) - 1, keys, draw(4), values, measures, status, 1));
+}
+
+static void call_any(rv_valve **valve) {
+  char text[60];
+  double value;
+  switch (draw(16)) {
+    case 0:
+      if (*valve == NULL || draw(4) == 0) rv_valve_free(valve);
+      if (*valve == NULL) check_code(rv_valve_new(valve));
+      break;
+    case 1:
+      rv_valve_free(valve);
+      break;
+    case 2: {
+      rv_valve *copy = *valve;
+      if (draw(4) > 0) break;
+      rv_valve_free(valve);
+      CHECK(copy == NULL || rv_valve_run(copy) == RV_BAD_INPUT);
+      break;
+    }
+    case 3:
+    case 4:
+      check_code(rv_valve_set_real(*valve, word(), number()));
+      break;
+    case 5:
+    case 6:
+      check_code(rv_valve_set_text(*valve, word(), word()));
+      break;
+    case 7:
+      check_code(rv_valve_get_real(*valve, word(), &value));
+      break;
+    case 8:
+      check_code(rv_valve_get_text(*valve, word(), text, draw(sizeof text)));
+      break;
+    case 9:
+      check_code(rv_valve_begin(*valve, draw(6) > 0 ? 0.0 : number()));
+      break;
+    case 10:
+    case 11:
+    case 12:
+      call_step(*valve);
+      break;
+    case 13:
+      call_state(*valve);
+      break;
+    case 14:
+      call_run(*valve);
+      break;
+    default:
+      call_sweep(*valve);
+  }
+  check_code(rv_valve_message(*valve, text, draw(sizeof text)));
+}
+
+int main(int count, char **argument) {
+  const long sequences = count > 1 ? atol(argument[1]) : 3000;
+  rv_valve *valve[places] = {NULL};
+  for (long n = 0; n < sequences; n++) {
+    rv_valve **one = &valve[draw(places)];
+    if (*one == NULL) check_code(rv_valve_new(one));
+    rv_valve_set_real(*one, "run.t_end_ms", 0.3); /* short sweeps */
+    for (unsigned i = draw(calls) + 1; i > 0; i--) call_any(one);
+    if (draw(3) == 0) rv_valve_free(one);
+  }
+  for (int i = 0; i < places; i++) rv_valve_free(&valve[i]);
+  return api_finish();
+}
