@@ -55,7 +55,7 @@ module rv_block
    ! Blocks that the deck leaves to us: many enough for many workers, large enough that lanes find like neighbours,
    ! small enough that a killed run loses seconds. 512 is a multiple of every likely width: no lane is left empty.
    integer(i8), parameter :: wanted_blocks = 64, fewest_cases = 512, most_cases = 4096
-   integer(i8), parameter :: fewest_film_cases = 16         !! of the model film, whose cases take 0.2 s each
+   integer(i8), parameter :: fewest_film_cases = 16         !! of the model film, whose cases take some 0.1 s each
 
    integer(i8), parameter :: most_trace_bytes = 64*1024**2  !! of one block's traces in memory
 
