@@ -70,8 +70,9 @@ int rv_valve_free(rv_valve **self);
 /* What the last call with this valve had to say; empty: nothing. */
 int rv_valve_message(rv_valve *self, char *buffer, size_t size);
 
-/* Set a key, "film.gap_mm", to a value in its unit or to a word: a choice, a file, .true. or .false., a number. The value
- * is checked here, what keys must share when it is used. Results and the state of stepping end with a new setting. */
+/* Set a key, "film.gap_mm", to a value in its unit or to a word: a choice, a file, .true. or .false., a number. Files are
+ * relative to the folder of the deck that the valve was made of, else to where the program runs. The value is checked
+ * here, what keys must share when it is used. Results and the state of stepping end with a new setting. */
 int rv_valve_set_real(rv_valve *self, const char *key, double value);
 int rv_valve_set_text(rv_valve *self, const char *key, const char *value);
 

@@ -9,12 +9,15 @@ program block_speed
    use rv_deck, only : deck_type, read_deck
    use rv_error, only : error_type
    use rv_faults, only : fault_list
+   use rv_film_case, only : planform_cache
+   use omp_lib, only : omp_get_thread_num
    use rv_kinds, only : i8, wp
    use rv_posix, only : seconds
    use rv_status, only : status_ok
    implicit none
    integer, parameter :: fall = 5, closing = 6   !! places in a block's measures
    real(wp), parameter :: ms = 1.0e-3_wp
+   type(planform_cache), allocatable :: cache(:)   !! one a thread
    type(deck_type) :: deck
    type(fault_list) :: faults
    type(error_type), allocatable :: error
@@ -37,7 +40,7 @@ program block_speed
    if (faults%errors() > 0) call give_up(faults%text(1))
 
    blocks = block_count(deck)
-   allocate(times(2, deck%case_count()))
+   allocate(times(2, deck%case_count()), cache(0:threads - 1))
    failed = 0
    call run_one(1)
    start = seconds()
@@ -71,7 +74,7 @@ contains
       integer(i8) :: first, last
 
       call block_bounds(deck, block, first, last)
-      call run_block(deck, first, last, result)
+      call run_block(deck, first, last, result, cache(omp_get_thread_num()))
       if (any(result%status /= status_ok)) then
          !$omp atomic
          failed = failed + 1

@@ -55,22 +55,26 @@ module rv_block
    ! Blocks that the deck leaves to us: many enough for many workers, large enough that lanes find like neighbours,
    ! small enough that a killed run loses seconds. 512 is a multiple of every likely width: no lane is left empty.
    integer(i8), parameter :: wanted_blocks = 64, fewest_cases = 512, most_cases = 4096
-   integer(i8), parameter :: fewest_film_cases = 16         !! of the model film, whose cases take 0.2 s each
+   integer(i8), parameter :: fewest_film_cases = 16         !! of the model film, whose cases take some 0.1 s each
 
    integer(i8), parameter :: most_trace_bytes = 64*1024**2  !! of one block's traces in memory
 
 contains
 
    !> Run cases first..last of the deck. Failures are per case and never end the block.
-   subroutine run_block(deck, first, last, result)
+   subroutine run_block(deck, first, last, result, cache)
       type(deck_type), intent(in) :: deck
       integer(i8), intent(in) :: first, last   !! 1 <= first <= last <= case_count
       type(block_result), intent(out) :: result
-      type(planform_cache) :: cache
+      type(planform_cache), intent(inout), optional, target :: cache   !! of whoever runs block after block
+      type(planform_cache), target :: own
+      type(planform_cache), pointer :: planform
       real(wp), allocatable :: value(:, :), order_by(:, :), time(:)
       integer, allocatable :: order(:)
       integer :: n, i, top, widest
 
+      planform => own
+      if (present(cache)) planform => cache
       n = int(last - first) + 1
       allocate(value(n_keys, n), order_by(n_shared + 2, n))
       time = trace_times(deck)
@@ -87,7 +91,7 @@ contains
       do while (i <= n)
          widest = min(n, i - 1 + widest_group(deck, value(:, order(i))))
          top = i - 1 + length_of_group(order_by(:n_shared, order(i:widest)))
-         call run_group(deck, value(:, order(i:top)), order(i:top), time, cache, result)
+         call run_group(deck, value(:, order(i:top)), order(i:top), time, planform, result)
          i = top + 1
       end do
    end subroutine run_block

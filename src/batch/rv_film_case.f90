@@ -11,10 +11,9 @@ module rv_film_case
    use rv_keys, only : n_keys, model_film, model_film_table, load_by_model, key_run_model, key_reed_a_mm, &
       & key_reed_b_mm, key_reed_hole_diameter_mm, key_reed_width_mm, key_reed_thickness_mm, key_reed_density_kg_m3, &
       & key_reed_youngs_modulus_gpa, key_reed_poisson_ratio, key_hydro_load, key_film_gap_mm, key_film_modes, &
-      & key_film_mesh, key_film_edge_elongation
+      & key_film_mesh, key_film_edge_elongation, key_fluid_density_kg_m3, key_fluid_viscosity_pa_s
    use rv_status, only : warn_wide_gap
    use rv_table_lanes, only : table_lanes, new_table_lanes
-   use rv_text, only : to_text
    use rv_valve_lanes, only : valve_lanes
    implicit none
    private
@@ -25,6 +24,11 @@ module rv_film_case
    integer, parameter :: elements_around(3) = [6, 4, 2]  !! film mesh of film.mesh = 1: on arc, side and clamp
    integer, parameter :: elements_across = 3
    integer, parameter :: n_planform = 9            !! values in planform_key
+
+   !> What a valve depends on besides planform, gap and pressure.
+   integer, parameter :: valve_keys(8) = [key_run_model, key_reed_thickness_mm, key_reed_density_kg_m3, &
+      & key_reed_youngs_modulus_gpa, key_reed_poisson_ratio, key_hydro_load, key_fluid_density_kg_m3, &
+      & key_fluid_viscosity_pa_s]
 
    !> The planform solved last, for the film models: cases that share it need it once.
    type :: planform_cache
@@ -47,7 +51,7 @@ contains
       type(table_lanes), allocatable :: table
       type(error_type), allocatable :: error
       logical :: fine(size(facts))
-      integer :: i
+      integer :: like, i   ! like: the last case whose valve was computed and is that of the next, but for gap and pressure
 
       call keep_planform(value(:, 1), cache, error)
       if (allocated(error)) then
@@ -57,8 +61,18 @@ contains
          return
       end if
       allocate(valve(size(facts)))
+      like = 0
       do i = 1, size(facts)
-         call new_film_case(value(:, i), cache%reed, valve(i), facts(i))
+         if (like > 0) then
+            if (any(abs(value(valve_keys, i) - value(valve_keys, like)) > 0.0_wp)) like = 0
+         end if
+         if (like > 0) then
+            valve(i) = valve(like)
+         else
+            call new_film_valve_of(value(:, i), cache%reed, valve(i), facts(i)%error)
+            if (.not. allocated(facts(i)%error)) like = i
+         end if
+         if (.not. allocated(facts(i)%error)) call finish_film_case(value(:, i), valve(i), facts(i))
          fine(i) = .not. (allocated(facts(i)%error) .or. facts(i)%is_closed)
       end do
       valve = pack(valve, fine)
@@ -74,16 +88,24 @@ contains
       end if
    end subroutine new_film_cases
 
-   subroutine new_film_case(value, reed, valve, facts)
+   !> Everything of a case's valve but gap and pressure.
+   subroutine new_film_valve_of(value, reed, valve, error)
       real(wp), intent(in) :: value(n_keys)
       type(film_reed), intent(in) :: reed
       type(film_valve), intent(out) :: valve
-      type(case_facts), intent(inout) :: facts
+      type(error_type), allocatable, intent(out) :: error
 
       call new_film_valve(valve, reed, value(key_reed_thickness_mm), value(key_reed_density_kg_m3), &
          & value(key_reed_youngs_modulus_gpa), value(key_reed_poisson_ratio), load_of(value), &
-         & fluid_of(value), value(key_film_gap_mm), facts%error)
-      if (allocated(facts%error)) return
+         & fluid_of(value), value(key_film_gap_mm), error)
+   end subroutine new_film_valve_of
+
+   subroutine finish_film_case(value, valve, facts)
+      real(wp), intent(in) :: value(n_keys)
+      type(film_valve), intent(inout) :: valve
+      type(case_facts), intent(inout) :: facts
+
+      valve%gap = value(key_film_gap_mm)
       call amplitudes_of(value, valve%inlet, valve%outlet)
       call tell(facts, valve%hole_stiffness, valve%modal_mass, valve%added_mass, valve%added_damping, &
          & valve%reynolds, valve%in_range)
@@ -91,9 +113,8 @@ contains
       facts%is_closed = film_is_closed(value)
       if (valve%gap < wide_gap*(1.0_wp - epsilon(wide_gap))) return
       facts%warnings = ior(facts%warnings, warn_wide_gap)
-      call add_note(facts, "at a gap of "//to_text(1.0e3_wp*valve%gap, 4) &
-         & //" mm lubrication theory overstates the steady load on the land")
-   end subroutine new_film_case
+      call add_note(facts, "from a gap of 0.15 mm on lubrication theory overstates the steady load on the land")
+   end subroutine finish_film_case
 
    !> Planform and film valve of one case, whatever its model: what a film model would make of it.
    subroutine film_of_case(value, reed, valve, error)
@@ -111,8 +132,8 @@ contains
       call keep_planform(as_film, cache, error)
       if (allocated(error)) return
       reed = cache%reed
-      call new_film_case(as_film, reed, valve, facts)
-      if (allocated(facts%error)) call move_alloc(facts%error, error)
+      call new_film_valve_of(as_film, reed, valve, error)
+      if (.not. allocated(error)) call finish_film_case(as_film, valve, facts)
    end subroutine film_of_case
 
    !> Solve a planform unless it is the one at hand.

@@ -2,6 +2,7 @@
 !> on threads, ranks or slices; who takes which block is the crew's business, and makes no difference to a result.
 module rv_workers
    use rv_kinds, only : wp, i8
+   use rv_film_case, only : planform_cache
    use rv_error, only : error_type
    use rv_posix, only : seconds
    use rv_block, only : block_bounds, run_block
@@ -63,6 +64,7 @@ contains
       type(state_type), intent(inout) :: state
       type(error_type), allocatable :: damage, failure
       type(part_type) :: part
+      type(planform_cache) :: cache
       integer :: block
       logical :: found
 
@@ -72,7 +74,7 @@ contains
          !$omp end critical (rv_run_state)
          if (block == 0) exit
          call read_part(parts, plan%identity, block, part, found, damage)
-         if (.not. found) call run_and_write(deck, parts, plan, block, part, failure)
+         if (.not. found) call run_and_write(deck, parts, plan, block, cache, part, failure)
          !$omp critical (rv_run_state)
          call note_block(part, found, allocated(damage), crew, monitor, state, failure)
          !$omp end critical (rv_run_state)
@@ -110,18 +112,19 @@ contains
       call crew%add(why, 1_i8, before)
    end subroutine end_all
 
-   subroutine run_and_write(deck, parts, plan, block, part, error)
+   subroutine run_and_write(deck, parts, plan, block, cache, part, error)
       type(deck_type), intent(in) :: deck
       character(len=*), intent(in) :: parts
       type(plan_type), intent(in) :: plan
       integer, intent(in) :: block
+      type(planform_cache), intent(inout) :: cache
       type(part_type), intent(out) :: part
       type(error_type), allocatable, intent(out) :: error
       integer(i8) :: first, last
 
       call block_bounds(deck, block, first, last)
       call input_values(deck, first, last, part%input)
-      call run_block(deck, first, last, part%result)
+      call run_block(deck, first, last, part%result, cache)
       call write_part(parts, plan%identity, block, part, error)
    end subroutine run_and_write
 

@@ -31,11 +31,11 @@ module rv_film_table
       real(wp) :: lowest = 0.0_wp                  !! smallest x of the table
       real(wp), private :: highest = 0.0_wp
       real(wp), allocatable, private :: cubic(:, :)  !! (8, intervals): of Y, then of A [m2]
-      real(wp), allocatable, private :: lowest_share(:, :, :)  !! lowest p over the sum of pressures [-], (0:shares, 0:intervals)
       real(wp), allocatable, private :: suction(:, :)     !! largest P_1 over C_s [m-2], (sides, 0:intervals)
       real(wp), allocatable, private :: low(:, :, :)      !! lowest p over the sum [-], (0:shares, sides, 0:intervals)
    contains
       procedure :: look_up
+      procedure :: look_up_all
       procedure :: lowest_pressure
    end type film_table
 
@@ -132,13 +132,83 @@ contains
       integer :: k
 
       call find_interval(self, x, k, s, per_x)
-      associate (c => self%cubic)
-         y = c(1, k) + s*(c(2, k) + s*(c(3, k) + s*c(4, k)))
-         y_slope = (c(2, k) + s*(2.0_wp*c(3, k) + s*3.0_wp*c(4, k)))*per_x
-         area = c(5, k) + s*(c(6, k) + s*(c(7, k) + s*c(8, k)))
-         area_slope = (c(6, k) + s*(2.0_wp*c(7, k) + s*3.0_wp*c(8, k)))*per_x
-      end associate
+      call cubics(self%cubic(:, k), s, per_x, y, y_slope, area, area_slope)
    end subroutine look_up
+
+   !> Both cubics of an interval, and their derivatives with respect to x.
+   pure subroutine cubics(c, s, per_x, y, y_slope, area, area_slope)
+      real(wp), intent(in) :: c(8), s, per_x
+      real(wp), intent(out) :: y, y_slope, area, area_slope
+
+      y = c(1) + s*(c(2) + s*(c(3) + s*c(4)))
+      y_slope = (c(2) + s*(2.0_wp*c(3) + s*3.0_wp*c(4)))*per_x
+      area = c(5) + s*(c(6) + s*(c(7) + s*c(8)))
+      area_slope = (c(6) + s*(2.0_wp*c(7) + s*3.0_wp*c(8)))*per_x
+   end subroutine cubics
+
+   !> look_up for many x.
+   pure subroutine look_up_all(self, x, y, y_slope, area, area_slope)
+      class(film_table), intent(in) :: self
+      real(wp), intent(in) :: x(:)
+      real(wp), dimension(size(x)), intent(out) :: y, y_slope, area, area_slope
+
+      call interpolate(size(x), self%lowest, self%highest*(1.0_wp - epsilon(1.0_wp)), self%cubic, x, y, y_slope, area, area_slope)
+   end subroutine look_up_all
+
+   !> look_up of n numbers, eight at a time: neighbours of like cases are mostly in one interval and share its cubics.
+   pure subroutine interpolate(n, lowest, highest, cubic, x, y, y_slope, area, area_slope)
+      integer, intent(in) :: n
+      real(wp), intent(in) :: lowest, highest
+      real(wp), intent(in) :: cubic(8, intervals)
+      real(wp), intent(in) :: x(n)
+      real(wp), dimension(n), intent(out) :: y, y_slope, area, area_slope
+      integer, parameter :: side = 8
+      real(wp), dimension(side) :: s, per_x
+      integer(i8) :: k(side)
+      integer :: i, j, m
+
+      do i = 0, n - side, side
+         call find_intervals(side, lowest, highest, x(i + 1:i + side), k, s, per_x)
+         if (all(k == k(1))) then
+            do j = 1, side
+               call cubics(cubic(:, k(1)), s(j), per_x(j), y(i + j), y_slope(i + j), area(i + j), area_slope(i + j))
+            end do
+         else
+            do j = 1, side
+               call cubics(cubic(:, k(j)), s(j), per_x(j), y(i + j), y_slope(i + j), area(i + j), area_slope(i + j))
+            end do
+         end if
+      end do
+      m = modulo(n, side)
+      call find_intervals(m, lowest, highest, x(n - m + 1:), k, s, per_x)
+      do j = 1, m
+         i = n - m + j
+         call cubics(cubic(:, k(j)), s(j), per_x(j), y(i), y_slope(i), area(i), area_slope(i))
+      end do
+   end subroutine interpolate
+
+   !> find_interval of n numbers in a loop that vectors can do.
+   pure subroutine find_intervals(n, lowest, highest, x, k, s, per_x)
+      integer, intent(in) :: n
+      real(wp), intent(in) :: lowest, highest, x(n)
+      integer(i8), intent(out) :: k(n)
+      real(wp), intent(out) :: s(n), per_x(n)
+      integer(i8), parameter :: bias = 1023, log2_parts = 2
+      real(wp) :: inside
+      integer(i8) :: octave, part
+      integer :: i
+
+      do i = 1, n
+         inside = merge(x(i), lowest, x(i) > lowest)
+         inside = merge(inside, highest, inside < highest)
+         octave = ishft(transfer(inside, 0_i8), -52) - bias
+         per_x(i) = transfer(ishft(bias + log2_parts - octave, 52), 0.0_wp)
+         s(i) = inside*per_x(i) - real(parts, wp)
+         part = int(s(i), i8)
+         s(i) = s(i) - real(part, wp)
+         k(i) = (octave - first_octave)*parts + part + 1
+      end do
+   end subroutine find_intervals
 
    !> Lowest pressure at the film's nodes, relative to p_out [Pa]. Beyond the table as look_up.
    elemental function lowest_pressure(self, x, drop, drag) result(lowest)

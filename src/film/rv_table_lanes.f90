@@ -27,8 +27,10 @@ module rv_table_lanes
    contains
       procedure :: acceleration
       procedure :: linearise
+      procedure :: correction
       procedure :: stiffness_ratio
       procedure :: film_force
+      procedure :: film_forces
       procedure :: equilibrium
       procedure :: scales
       procedure :: trace_values
@@ -73,15 +75,19 @@ contains
       real(wp), intent(in) :: q(self%width, self%dofs), v(self%width, self%dofs)
       real(wp), intent(out) :: a(self%width, self%dofs)
       integer, intent(out) :: closed
-      real(wp), dimension(self%width) :: y, y_slope, area, area_slope
+      real(wp), dimension(self%width) :: x, y, y_slope, area, area_slope
+      real(wp) :: per_y, film
       integer :: i
 
-      call self%table%look_up(1.0_wp + q(:, 1)*self%inverse_gap, y, y_slope, area, area_slope)
+      x = 1.0_wp + q(:, 1)*self%inverse_gap
+      call self%table%look_up_all(x, y, y_slope, area, area_slope)
       do i = 1, self%width
+         per_y = 1.0_wp/y(i)
+         film = self%film_scale(i)*(per_y*per_y*per_y)
          a(i, 1) = ((self%inlet(i)*inlet - self%outlet(i)*outlet)*(self%hole(i) + area(i)) - self%stiffness(i)*q(i, 1) &
-            & - (self%damping(i) + self%film_scale(i)/y(i)**3)*v(i, 1))*self%inverse_mass(i)
+            & - (self%damping(i) + film)*v(i, 1))*self%inverse_mass(i)
       end do
-      closed = first_closed(self%table%lowest, 1.0_wp + q(:, 1)*self%inverse_gap)
+      closed = first_closed(self%table%lowest, x)
    end subroutine acceleration
 
    subroutine linearise(self, first, last, inlet, outlet, q, v, a, a_q, a_v, closed)
@@ -92,44 +98,132 @@ contains
       real(wp), intent(out) :: a(first:last, self%dofs)
       real(wp), intent(out) :: a_q(first:last, self%dofs, self%dofs), a_v(first:last, self%dofs, self%dofs)
       integer, intent(out) :: closed
-      real(wp), dimension(first:last) :: y, y_slope, area, area_slope
-      real(wp) :: drop, film
-      integer :: i
+      real(wp), dimension(first:last) :: x, y, y_slope, area, area_slope
+      integer :: n
 
-      call self%table%look_up(1.0_wp + q(:, 1)*self%inverse_gap(first:last), y, y_slope, area, area_slope)
-      do i = first, last
-         drop = self%inlet(i)*inlet - self%outlet(i)*outlet
-         film = self%film_scale(i)/y(i)**3
-         a(i, 1) = (drop*(self%hole(i) + area(i)) - self%stiffness(i)*q(i, 1) - (self%damping(i) + film)*v(i, 1)) &
-            & *self%inverse_mass(i)
-         a_q(i, 1, 1) = ((drop*area_slope(i) + 3.0_wp*film*y_slope(i)/y(i)*v(i, 1))*self%inverse_gap(i) &
-            & - self%stiffness(i))*self%inverse_mass(i)
-         a_v(i, 1, 1) = -(self%damping(i) + film)*self%inverse_mass(i)
-      end do
-      closed = first_closed(self%table%lowest, 1.0_wp + q(:, 1)*self%inverse_gap(first:last))
+      n = last - first + 1
+      x = 1.0_wp + q(:, 1)*self%inverse_gap(first:last)
+      call self%table%look_up_all(x, y, y_slope, area, area_slope)
+      call slopes(n, inlet, outlet, self%inlet(first:last), self%outlet(first:last), self%hole(first:last), &
+         & self%stiffness(first:last), self%damping(first:last), self%film_scale(first:last), self%inverse_gap(first:last), &
+         & self%inverse_mass(first:last), y, y_slope, area, area_slope, q, v, a, a_q, a_v)
+      closed = first_closed(self%table%lowest, x)
       if (closed > 0) closed = first - 1 + closed
    end subroutine linearise
 
-   !> -C_s u' and its rate. A reed that closes leaves no place of the film below the pressures beyond its edges.
+   !> Accelerations and derivatives of n lanes as plain arrays, which the compiler turns into vector code.
+   pure subroutine slopes(n, inlet, outlet, p_in, p_out, hole, stiffness, damping, film_scale, inverse_gap, inverse_mass, &
+      & y, y_slope, area, area_slope, q, v, a, a_q, a_v)
+      integer, intent(in) :: n
+      real(wp), intent(in) :: inlet, outlet
+      real(wp), dimension(n), intent(in) :: p_in, p_out, hole, stiffness, damping, film_scale, inverse_gap, inverse_mass
+      real(wp), dimension(n), intent(in) :: y, y_slope, area, area_slope, q, v
+      real(wp), dimension(n), intent(out) :: a, a_q, a_v
+      real(wp) :: drop, film, per_y
+      integer :: i
+
+      do i = 1, n
+         drop = p_in(i)*inlet - p_out(i)*outlet
+         per_y = 1.0_wp/y(i)
+         film = film_scale(i)*(per_y*per_y*per_y)
+         a(i) = (drop*(hole(i) + area(i)) - stiffness(i)*q(i) - (damping(i) + film)*v(i))*inverse_mass(i)
+         a_q(i) = ((drop*area_slope(i) + 3.0_wp*film*y_slope(i)*per_y*v(i))*inverse_gap(i) - stiffness(i))*inverse_mass(i)
+         a_v(i) = -(damping(i) + film)*inverse_mass(i)
+      end do
+   end subroutine slopes
+
+   !> The base type's correction, without arrays for what one lane needs once.
+   subroutine correction(self, first, last, inlet, outlet, gamma, base_q, base_v, v, dv, film, closed)
+      class(table_lanes), intent(inout) :: self
+      integer, intent(in) :: first, last
+      real(wp), intent(in) :: inlet, outlet, gamma
+      real(wp), dimension(first:last), intent(in) :: base_q, base_v, v
+      real(wp), dimension(first:last), intent(out) :: dv, film
+      integer, intent(out) :: closed
+      real(wp), dimension(first:last) :: x, y, y_slope, area, area_slope
+
+      x = 1.0_wp + (base_q + gamma*v)*self%inverse_gap(first:last)
+      call self%table%look_up_all(x, y, y_slope, area, area_slope)
+      call correct(last - first + 1, inlet, outlet, gamma, self%inlet(first:last), self%outlet(first:last), &
+         & self%hole(first:last), self%stiffness(first:last), self%damping(first:last), self%film_scale(first:last), &
+         & self%inverse_gap(first:last), self%inverse_mass(first:last), y, y_slope, area, area_slope, base_q, base_v, v, dv)
+      film = x*self%gap(first:last)
+      closed = first_closed(self%table%lowest, x)
+      if (closed > 0) closed = first - 1 + closed
+   end subroutine correction
+
+   pure subroutine correct(n, inlet, outlet, gamma, p_in, p_out, hole, stiffness, damping, film_scale, inverse_gap, &
+      & inverse_mass, y, y_slope, area, area_slope, base_q, base_v, v, dv)
+      integer, intent(in) :: n
+      real(wp), intent(in) :: inlet, outlet, gamma
+      real(wp), dimension(n), intent(in) :: p_in, p_out, hole, stiffness, damping, film_scale, inverse_gap, inverse_mass
+      real(wp), dimension(n), intent(in) :: y, y_slope, area, area_slope, base_q, base_v, v
+      real(wp), intent(out) :: dv(n)
+      real(wp) :: drop, c, per_y, push, per_u
+      integer :: i
+
+      do i = 1, n
+         drop = p_in(i)*inlet - p_out(i)*outlet
+         per_y = 1.0_wp/y(i)
+         c = film_scale(i)*(per_y*per_y*per_y)
+         push = drop*(hole(i) + area(i)) - stiffness(i)*(base_q(i) + gamma*v(i)) - (damping(i) + c)*v(i)
+         per_u = (drop*area_slope(i) + 3.0_wp*c*y_slope(i)*per_y*v(i))*inverse_gap(i) - stiffness(i)
+         dv(i) = (base_v(i) - v(i) + gamma*push*inverse_mass(i)) &
+            & /(1.0_wp + gamma*(damping(i) + c - gamma*per_u)*inverse_mass(i))
+      end do
+   end subroutine correct
+
+   !> -C_s u' and its rate.
    subroutine film_force(self, lane, inlet, outlet, q, v, a, force, rate)
       class(table_lanes), intent(inout) :: self
       integer, intent(in) :: lane
       real(wp), intent(in) :: inlet, outlet
       real(wp), intent(in) :: q(self%dofs), v(self%dofs), a(self%dofs)
       real(wp), intent(out) :: force, rate
-      real(wp) :: x, y, y_slope, area, area_slope, film, drop, low
+      real(wp) :: x, y, y_slope, area, area_slope, film
 
       x = 1.0_wp + q(1)*self%inverse_gap(lane)
       call self%table%look_up(x, y, y_slope, area, area_slope)
       film = self%film_scale(lane)/y**3
       force = -film*v(1)
       rate = film*(3.0_wp*y_slope/y*self%inverse_gap(lane)*v(1)**2 - a(1))
-      if (.not. self%has_film(lane)) return
-      drop = self%inlet(lane)*inlet - self%outlet(lane)*outlet
-      low = min(0.0_wp, drop)
-      if (v(1) > 0.0_wp) low = self%table%lowest_pressure(x, drop, -force)
-      self%lowest_pressure(lane) = min(self%lowest_pressure(lane), self%outlet(lane)*outlet + low)
+      if (self%has_film(lane)) call keep_lowest(self, lane, x, outlet, self%inlet(lane)*inlet - self%outlet(lane)*outlet, &
+         & v(1), -force)
    end subroutine film_force
+
+   subroutine film_forces(self, inlet, outlet, q, v, a, force, rate)
+      class(table_lanes), intent(inout) :: self
+      real(wp), intent(in) :: inlet, outlet
+      real(wp), intent(in), dimension(self%width, self%dofs) :: q, v, a
+      real(wp), intent(out), dimension(self%width) :: force, rate
+      real(wp), dimension(self%width) :: x, y, y_slope, area, area_slope, drop
+      integer :: i
+
+      x = 1.0_wp + q(:, 1)*self%inverse_gap
+      call self%table%look_up_all(x, y, y_slope, area, area_slope)
+      do i = 1, self%width
+         force(i) = -self%film_scale(i)/(y(i)*y(i)*y(i))*v(i, 1)
+         rate(i) = -force(i)*3.0_wp*y_slope(i)/y(i)*self%inverse_gap(i)*v(i, 1) &
+            & - self%film_scale(i)/(y(i)*y(i)*y(i))*a(i, 1)
+      end do
+      drop = self%inlet*inlet - self%outlet*outlet
+      do i = 1, self%width
+         if (.not. self%has_film(i)) cycle
+         call keep_lowest(self, i, x(i), outlet, drop(i), v(i, 1), -force(i))
+      end do
+   end subroutine film_forces
+
+   !> A reed that closes leaves no place of the film below the pressures beyond its edges.
+   subroutine keep_lowest(self, lane, x, outlet, drop, v, drag)
+      type(table_lanes), intent(inout) :: self
+      integer, intent(in) :: lane
+      real(wp), intent(in) :: x, outlet, drop, v, drag
+      real(wp) :: low
+
+      low = min(0.0_wp, drop)
+      if (v > 0.0_wp) low = self%table%lowest_pressure(x, drop, drag)
+      self%lowest_pressure(lane) = min(self%lowest_pressure(lane), self%outlet(lane)*outlet + low)
+   end subroutine keep_lowest
 
    pure function stiffness_ratio(self) result(ratio)
       class(table_lanes), intent(in) :: self

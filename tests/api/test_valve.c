@@ -61,6 +61,31 @@ static void test_two_at_once(void) {
   rv_valve_free(&b);
 }
 
+/* What keys and messages are made of is not shared between threads: each sees its own texts. */
+static void test_texts_at_once(void) {
+  static const char *const key[2] = {"film.gap", "pressure.inlet_kp"};
+  static const char *const said[2] = {"'film.gap': there is no such key; did you mean 'film.gap_mm'?",
+                                      "'pressure.inlet_kp': there is no such key; did you mean 'pressure.inlet_kpa'?"};
+  static const char *const model[2] = {"film_table", "squeeze"};
+  int wrong = 0;
+#pragma omp parallel for num_threads(2) reduction(+ : wrong)
+  for (int i = 0; i < 2; i++) {
+    rv_valve *valve;
+    char text[200];
+    wrong += rv_valve_new(&valve) != RV_OK;
+    for (int n = 0; n < 3000; n++) {
+      wrong += rv_valve_set_real(valve, key[i], 1.0) != RV_BAD_INPUT;
+      rv_valve_message(valve, text, sizeof text);
+      wrong += strcmp(text, said[i]) != 0;
+      wrong += rv_valve_set_text(valve, "run.model", model[i]) != RV_OK;
+      wrong += rv_valve_get_text(valve, "run.model", text, sizeof text) != RV_OK;
+      wrong += strcmp(text, model[i]) != 0;
+    }
+    wrong += rv_valve_free(&valve) != RV_OK;
+  }
+  CHECK(wrong == 0);
+}
+
 static void test_settings(void) {
   rv_valve *valve;
   double value = 0.0;
@@ -247,11 +272,16 @@ static void test_measured_pressure(void) {
   rv_valve_message(valve, text, sizeof text);
   CHECK(strstr(text, "pressure.file has no effect") != NULL);
   rv_valve_free(&valve);
+  if (system("mkdir -p api_folder && mv api_trace.csv api_trace.nml api_folder") != 0) return;
+  CHECK(rv_valve_new_deck("api_folder/api_trace.nml", &valve, text, sizeof text) == RV_OK);
+  GOOD(valve, rv_valve_run(valve));
+  rv_valve_free(&valve);
 }
 
 int main(void) {
   test_run_twice();
   test_two_at_once();
+  test_texts_at_once();
   test_settings();
   test_wrong_settings();
   test_wrong_order();

@@ -277,7 +277,8 @@ contains
       call suite%equal(name//": silenced, not closed", closed, 0)
       call suite%close("no acceleration, no derivative", maxval(abs(a(last, :))) + maxval(abs(a_q(last, :, :))) &
          & + maxval(abs(a_v(last, :, :))), 0.0_wp, 0.0_wp, 0.0_wp)
-      call suite%true("the others as before", .not. any(abs(a(:last - 1, :) - before(:last - 1, :)) > 0.0_wp))
+      call suite%true("the others as before, but for rounding", all(abs(a(:last - 1, :) - before(:last - 1, :)) &
+         & <= 8.0_wp*epsilon(1.0_wp)*abs(before(:last - 1, :))))
       call lanes%film_force(last, 1.0_wp, 1.0_wp, q(last, :), 0.1_wp + v(last, :), v(last, :), force, rate)
       call suite%true("no film to measure", .not. lanes%has_film(last) .and. abs(force) + abs(rate) <= 0.0_wp)
       call lanes%equilibrium(1.0_wp, 0.0_wp, q, found)
