@@ -15,11 +15,12 @@ deck=$1
 folder=$2
 
 # A warning that the time is up: stop with whole blocks, then get in line again. A cancelled job stops for good.
-# Both go on as SIGUSR1: after a SIGTERM to itself mpirun soon kills its ranks.
+# Both go on as SIGUSR1: after a SIGTERM to itself mpirun soon kills its ranks. Unbound, for else all threads of a
+# rank may share one core.
 again=no
 trap 'again=yes; kill -USR1 "$work"' USR1
 trap 'kill -USR1 "$work"' TERM
-${REEDVALVE_MPIRUN:-mpirun} ${REEDVALVE_MPI:-reedvalve_mpi} run "$deck" -o "$folder" --resume \
+${REEDVALVE_MPIRUN:-mpirun --bind-to none} ${REEDVALVE_MPI:-reedvalve_mpi} run "$deck" -o "$folder" --resume \
    --threads "${SLURM_CPUS_PER_TASK:-1}" &
 work=$!
 # a signal ends a wait, not the work

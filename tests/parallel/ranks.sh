@@ -12,6 +12,7 @@ for ranks in 1 2 3 5; do
    fails "no parts are left" test -e ranks$ranks/parts
    fails "no lock is left" test -e ranks$ranks/run.lock
 done
+holds "each case was computed once" grep -q 'cases computed: 320,' ranks5/run.log
 holds "the log tells of them" grep -q 'processes: 5, threads of each: 2' ranks5/run.log
 
 # one tells, once
@@ -67,7 +68,7 @@ holds "the rank is named" grep -q "rank 1 on .*: cannot resume the run .*the dec
 fails "nothing is left of it" test -e split
 
 # stopped by the scheduler's words to mpiexec, and by a signal to one rank; a long run of short blocks, never finished here
-sweep_deck 1000 | sed 's/block_size = 1000/block_size = 20/' >long.nml
+sweep_deck 4000 1.0e-10 | sed "s/block_size = 4000/block_size = 20/" >long.nml
 for signal in TERM USR1 INT; do
    if [ $signal = TERM ]; then patience=3; else patience=0; fi
    export OMPI_MCA_odls_base_sigkill_timeout=$patience
@@ -81,7 +82,7 @@ for signal in TERM USR1 INT; do
    holds "the log knows" grep -q 'stopped on request' part_$signal/run.log
    fails "the lock is gone" test -e part_$signal/run.lock
    kept=$(ls part_$signal/parts | grep -c 'part$')
-   if [ "$kept" -lt 800 ]; then pass "$kept of 800 blocks are kept"; else wrong "nothing is left to resume"; fi
+   if [ "$kept" -lt 3200 ]; then pass "$kept of 3200 blocks are kept"; else wrong "nothing is left to resume"; fi
    fails "no half of a part is left" sh -c "ls part_$signal/parts | grep new"
 done
 

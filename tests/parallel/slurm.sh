@@ -116,7 +116,7 @@ ended "$last" COMPLETED
 same whole sliced
 
 # a slice whose time is up stops with whole blocks and gets in line again
-sweep_deck 1000 | sed 's/block_size = 1000/block_size = 20/' >long.nml
+sweep_deck 4000 1.0e-10 | sed "s/block_size = 4000/block_size = 20/" >long.nml
 job=$(sbatch --parsable --array=1-1 --cpus-per-task=2 --output=long.out "$scripts/array.sh" long.nml long)
 until_true 20 test -e long/parts/block_000000001.part
 scancel --batch --signal=USR1 "${job}_1"
@@ -129,7 +129,7 @@ sleep 2   # slurmd takes a new go within the second for the old one; Slurm itsel
 scontrol update JobId="${job}_1" StartTime=now
 until_true 20 sh -c "[ \$(ls long/parts | grep -c 'part\$') -gt $before ]"
 after=$(ls long/parts | grep -c 'part$')
-if [ "$after" -gt "$before" ]; then pass "it went on from $before of 800 blocks"; else wrong "it did not go on"; cat long.out; fi
+if [ "$after" -gt "$before" ]; then pass "it went on from $before of 3200 blocks"; else wrong "it did not go on"; cat long.out; fi
 scancel "${job}_1"
 holds "a cancelled job is over" over "$job" 20
 ended "${job}_1" CANCELLED
