@@ -29,6 +29,7 @@ module rv_film_table
    !> Coefficients of the cubics: value = c0 + c1 s + c2 s^2 + c3 s^3, s from 0 to 1 in the interval.
    type :: film_table
       real(wp) :: lowest = 0.0_wp                  !! smallest x of the table
+      real(wp) :: most_suction = 0.0_wp            !! largest suction over C_s u' where x >= 1 [m-2]
       real(wp), private :: highest = 0.0_wp
       real(wp), allocatable, private :: cubic(:, :)  !! (8, intervals): of Y, then of A [m2]
       real(wp), allocatable, private :: suction(:, :)     !! largest P_1 over C_s [m-2], (sides, 0:intervals)
@@ -68,6 +69,7 @@ contains
             left = right
          end do
       end do
+      self%most_suction = maxval(self%suction(:, -first_octave*parts:))
    end subroutine new_film_table
 
    !> Y, dY/dx, A, dA/dx at one x; suction and lowest pressures.

@@ -220,9 +220,14 @@ contains
       real(wp), intent(in) :: x, outlet, drop, v, drag
       real(wp) :: low
 
-      low = min(0.0_wp, drop)
-      if (v > 0.0_wp) low = self%table%lowest_pressure(x, drop, drag)
-      self%lowest_pressure(lane) = min(self%lowest_pressure(lane), self%outlet(lane)*outlet + low)
+      associate (lowest => self%lowest_pressure(lane), base => self%outlet(lane)*outlet)
+         low = min(0.0_wp, drop)
+         if (v > 0.0_wp) then
+            if (x >= 1.0_wp .and. base + low - self%table%most_suction*drag >= lowest) return
+            low = self%table%lowest_pressure(x, drop, drag)
+         end if
+         lowest = min(lowest, base + low)
+      end associate
    end subroutine keep_lowest
 
    pure function stiffness_ratio(self) result(ratio)
