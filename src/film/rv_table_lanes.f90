@@ -29,6 +29,7 @@ module rv_table_lanes
       procedure :: linearise
       procedure :: correction
       procedure :: stiffness_ratio
+      procedure :: decay
       procedure :: film_force
       procedure :: film_forces
       procedure :: equilibrium
@@ -238,6 +239,16 @@ contains
       call self%table%look_up(1.0_wp, y, y_slope, area, area_slope)
       ratio = (self%damping + self%film_scale/y**3)*sqrt(self%inverse_mass/self%stiffness)
    end function stiffness_ratio
+
+   pure real(wp) function decay(self, lane, q)
+      class(table_lanes), intent(in) :: self
+      integer, intent(in) :: lane
+      real(wp), intent(in) :: q(self%dofs)
+      real(wp) :: y, y_slope, area, area_slope
+
+      call self%table%look_up(1.0_wp + q(1)*self%inverse_gap(lane), y, y_slope, area, area_slope)
+      decay = (self%damping(lane) + self%film_scale(lane)/y**3)*self%inverse_mass(lane)
+   end function decay
 
    !> k u = (p_in - p_out) (int_hole psi + A_land(u)) by Newton's method, kept above the table's lowest x.
    subroutine equilibrium(self, inlet, outlet, q, found)

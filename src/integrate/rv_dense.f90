@@ -5,7 +5,7 @@ module rv_dense
    use rv_kinds, only : wp
    implicit none
    private
-   public :: quintic, value_at, motion_at, derivative, first_root
+   public :: quintic, cubic, value_at, motion_at, derivative, first_root
 
 contains
 
@@ -27,6 +27,14 @@ contains
       c(4) = -15.0_wp*rise + 7.0_wp*dv - da
       c(5) = 6.0_wp*rise - 3.0_wp*dv + 0.5_wp*da
    end subroutine quintic
+
+   !> The cubic that meets u and u' at both ends, as a quintic; error h^4 max|u''''|/384.
+   pure subroutine cubic(h, u0, v0, u1, v1, c)
+      real(wp), intent(in) :: h, u0, v0, u1, v1
+      real(wp), intent(out) :: c(0:5)
+
+      c = [u0, h*v0, 3.0_wp*(u1 - u0) - h*(2.0_wp*v0 + v1), h*(v0 + v1) - 2.0_wp*(u1 - u0), 0.0_wp, 0.0_wp]
+   end subroutine cubic
 
    !> Value of a polynomial.
    pure real(wp) function value_at(c, s) result(value)

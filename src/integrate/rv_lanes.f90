@@ -33,7 +33,7 @@ module rv_lanes
    real(wp), parameter :: out_of_bounds = 1.0e30_wp   !! an acceleration [m s-2]
    integer(c_int), parameter :: rv_stuck = -1000_c_int  !! beside ARKODE's flags: its steps are no progress
 
-   !> Butcher table: fifth order, stiffly accurate, L-stable (Kennedy & Carpenter 2019, doi:10.1016/j.apnum.2018.10.007).
+   !> Butcher table: fifth order, stiffly accurate, L-stable (Kennedy & Carpenter 2019, doi:10.1016/j.apnum.2019.07.008).
    !> Not its relatives ESDIRK547L2SA and ESDIRK436L2SA: they have a stage behind the end of the step, which at a corner
    !> of the pressure sees what comes after it and costs them their order (2 in place of 5). The longer steps of
    !> ARK548L2SA would leave the dense output less accurate than the steps.

@@ -24,6 +24,7 @@ module rv_measures
    !> A curve turns no further than where its tangents at a step's ends meet if it bends one way; it need not.
    real(wp), parameter :: allowance = 1.5_wp
 
+   real(wp), parameter :: stiff = 30.0_wp  !! rate of decay times step, where the film force is taken at the steps' ends only
    real(wp), parameter :: noise = 10.0_wp  !! global error over the tolerance of a step, at most
 
    !> Crossings and extremes found so far; arrays are (width) or (width, levels).
@@ -337,6 +338,9 @@ contains
 
    !> The film force has a maximum within the step: the root of its rate, by false position (Illinois) from the top of
    !> the cubic that meets force and rate at both ends.
+   !>
+   !> Where the film settles the velocity many times within a step, the motion is quasi-static and the forces at the ends
+   !> of the steps tell it; accelerations there, and so the dense output, are the integration's error times that rate.
    subroutine find_peak(self, step, i, lanes, history, force_now, rate_now)
       class(measure_lanes), intent(inout) :: self
       type(step_type), intent(in) :: step
@@ -348,10 +352,11 @@ contains
       real(wp), dimension(most_dofs) :: q, v, a
       integer :: k
 
+      dt = step%t1 - step%t0
+      if (lanes%decay(i, step%q1(i, :))*dt > stiff) return
       do k = 1, lanes%dofs
          path(:, k) = step%path(i, k)
       end do
-      dt = step%t1 - step%t0
       flat = max(1.0e-4_wp*self%resolution, 1.0e-12_wp)*self%largest_force(i)   ! what the peak may lie above the last look
       left = 0.0_wp
       right = 1.0_wp

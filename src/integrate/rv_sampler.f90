@@ -10,6 +10,9 @@ module rv_sampler
    private
    public :: sampler_type, new_sampler
 
+   !> Rate of decay times step above which accelerations at the steps' ends tell nothing any more.
+   real(wp), parameter :: stiff = 300.0_wp
+
    !> Samples taken so far: traces, and film pressure fields on a grid of their own.
    type :: sampler_type
       real(wp), allocatable :: value(:, :, :) !! (time, traces, width); NaN where the case did not get to
@@ -52,7 +55,7 @@ contains
             call history%factors(self%time(self%next), inlet, outlet)
             do i = 1, step%width
                if (.not. step%live(i)) cycle
-               call state_at(step, i, self%time(self%next), q, v)
+               call state_at(step, lanes, i, self%time(self%next), q, v)
                call lanes%trace_values(i, inlet, outlet, q, v, self%value(self%next, :, i))
             end do
          end if
@@ -63,7 +66,7 @@ contains
             call history%factors(self%field_time(self%next_field), inlet, outlet)
             do i = 1, step%width
                if (.not. step%live(i)) cycle
-               call state_at(step, i, self%field_time(self%next_field), q, v)
+               call state_at(step, lanes, i, self%field_time(self%next_field), q, v)
                call lanes%pressure_field(i, inlet, outlet, q, v, self%field(:, self%next_field, i))
             end do
          end if
@@ -80,20 +83,27 @@ contains
       if (next <= size(time)) is_due = time(next) <= step%t1
    end function is_due
 
-   pure subroutine state_at(step, i, t, q, v)
+   pure subroutine state_at(step, lanes, i, t, q, v)
       type(step_type), intent(in) :: step
+      class(valve_lanes), intent(in) :: lanes
       integer, intent(in) :: i
       real(wp), intent(in) :: t
       real(wp), intent(out) :: q(:), v(:)
       real(wp) :: h, c(0:5)
+      logical :: follows_film
       integer :: k
 
       h = step%t1 - step%t0
       q = step%q1(i, :)
       v = step%v1(i, :)
       if (.not. h > 0.0_wp) return
+      follows_film = lanes%decay(i, q)*h > stiff
       do k = 1, size(q)
-         c = step%path(i, k)
+         if (follows_film) then
+            c = step%calm_path(i, k)
+         else
+            c = step%path(i, k)
+         end if
          q(k) = value_at(c, (t - step%t0)/h)
          v(k) = value_at(derivative(c), (t - step%t0)/h)/h
       end do

@@ -1,7 +1,7 @@
 !> One accepted step of a group of lanes: displacements, velocities and accelerations at both ends.
 module rv_step
    use rv_kinds, only : wp
-   use rv_dense, only : quintic
+   use rv_dense, only : cubic, quintic
    implicit none
    private
    public :: step_type, new_step
@@ -20,6 +20,7 @@ module rv_step
       procedure :: advance
       procedure :: land
       procedure :: path
+      procedure :: calm_path
       procedure :: tip_path
       procedure :: tip_accelerations
    end type step_type
@@ -87,6 +88,16 @@ contains
       call quintic(self%t1 - self%t0, self%q0(i, k), self%v0(i, k), self%a0(i, k), &
          & self%q1(i, k), self%v1(i, k), self%a1(i, k), c)
    end function path
+
+   !> Dense output without accelerations, for what follows its film: there they are the velocities' error times the
+   !> film's rate of decay.
+   pure function calm_path(self, i, k) result(c)
+      class(step_type), intent(in) :: self
+      integer, intent(in) :: i, k
+      real(wp) :: c(0:5)
+
+      call cubic(self%t1 - self%t0, self%q0(i, k), self%v0(i, k), self%q1(i, k), self%v1(i, k), c)
+   end function calm_path
 
    !> Dense output of the tip displacement of lane i [m].
    pure function tip_path(self, i) result(c)

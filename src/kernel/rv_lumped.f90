@@ -40,6 +40,7 @@ module rv_lumped
       procedure :: linearise
       procedure :: correction
       procedure :: stiffness_ratio
+      procedure :: decay
       procedure :: film_force
       procedure :: film_forces
       procedure :: equilibrium
@@ -216,6 +217,14 @@ contains
 
       ratio = (self%damping + self%squeeze/self%gap**3)/sqrt(self%stiffness)
    end function stiffness_ratio
+
+   pure real(wp) function decay(self, lane, q)
+      class(lumped_lanes), intent(in) :: self
+      integer, intent(in) :: lane
+      real(wp), intent(in) :: q(self%dofs)
+
+      decay = self%damping(lane) + self%squeeze(lane)/(q(1) + self%gap(lane))**3
+   end function decay
 
    !> -F_s of Eq. (26) [N] and its rate.
    subroutine film_force(self, lane, inlet, outlet, q, v, a, force, rate)

@@ -33,6 +33,7 @@ module rv_valve_lanes
       procedure(silence_lane), deferred :: silence
       procedure :: correction
       procedure :: stiffness_ratio
+      procedure :: decay
       procedure :: film_forces
       procedure :: pressure_field
    end type valve_lanes
@@ -141,6 +142,15 @@ contains
 
       ratio = huge(1.0_wp)
    end function stiffness_ratio
+
+   !> Rate at which the film brings one lane's velocity to that of its quasi-static motion [s-1]; 0 if not known.
+   pure real(wp) function decay(self, lane, q)
+      class(valve_lanes), intent(in) :: self
+      integer, intent(in) :: lane
+      real(wp), intent(in) :: q(self%dofs)
+
+      decay = 0.0_wp*real(lane, wp)*q(1)
+   end function decay
 
    !> film_force of all lanes, none where a lane has no film. Models of many lanes have a faster one of their own.
    subroutine film_forces(self, inlet, outlet, q, v, a, force, rate)
