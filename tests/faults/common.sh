@@ -58,12 +58,15 @@ same() {
    done
 }
 
-# stop_midway FOLDER SIGNAL THREADS: run deck.nml and send the signal once the first block is finished
+# stop_midway FOLDER SIGNAL THREADS: run deck.nml and send the signal once the first block is finished; held still, a run
+# cannot be over before the signal is on its way
 stop_midway() {
    "$program" run deck.nml -o "$1" --threads "$3" >out.txt 2>err.txt &
    victim=$!
-   while kill -0 $victim 2>/dev/null && [ ! -e "$1/parts/block_000000001.part" ]; do sleep 0.005; done
+   while kill -0 $victim 2>/dev/null && [ ! -e "$1/parts/block_000000001.part" ]; do :; done
+   kill -STOP $victim
    kill "-$2" $victim
+   kill -CONT $victim 2>/dev/null
    wait $victim 2>/dev/null
    got=$?
    if [ -e "$1/parts/manifest" ] && [ ! -e "$1/results.nc" ]; then pass "stopped midway by $2 with some of $1 done"
