@@ -21,7 +21,8 @@ resume() {
    0 | 1 | 2) expect 0 'none failed' run deck.nml -o broken --resume --threads $(($1 + 1)) ;;
    3)
       for slice in 3 1 2; do expect 0 'none failed' run deck.nml -o broken --resume --slice $slice/3 --threads 1; done
-      expect 0 'none failed' merge broken
+      # a run that was over before its kill has its results and no parts
+      if [ -d broken/parts ]; then expect 0 'none failed' merge broken; fi
       ;;
    *)
       with_ranks $(($1 - 2))
