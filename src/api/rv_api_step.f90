@@ -7,7 +7,7 @@ module rv_api_step
    use rv_error, only : error_type, fail, rv_domain
    use rv_api_call, only : begin_call, refuse, settle, code_of_status, put_number, rv_ok, no_pointer
    use rv_block, only : n_traces
-   use rv_case_facts, only : case_facts
+   use rv_case_facts, only : amplitudes_of, case_facts
    use rv_film_case, only : planform_cache
    use rv_handles, only : valve_type
    use rv_keys, only : n_keys, kind_trace, key_pressure_kind
@@ -63,11 +63,14 @@ contains
       class(valve_lanes), allocatable :: lanes
       type(planform_cache) :: cache
       type(case_facts) :: facts(1)
-      real(wp) :: value(n_keys), scale
+      real(wp) :: value(n_keys), inlet, outlet, scale
 
       call valve%setup%ready%case_values(1_i8, value)
       call new_history(value, valve%setup%ready%trace, history, error)
       if (allocated(error)) return
+      call amplitudes_of(value, inlet, outlet)
+      scale = max(least_scale, history%span(inlet, outlet))
+      value(key_pressure_kind) = real(kind_trace, wp)
       call new_case_lanes(reshape(value, [n_keys, 1]), cache, lanes, facts)
       if (allocated(facts(1)%error)) then
          error = facts(1)%error
@@ -76,9 +79,6 @@ contains
       end if
       if (allocated(error)) return
       if (allocated(facts(1)%note)) valve%message = valve%message//facts(1)%note
-      scale = max(least_scale, history%span(lanes%inlet(1), lanes%outlet(1)))
-      value(key_pressure_kind) = real(kind_trace, wp)
-      call new_case_lanes(reshape(value, [n_keys, 1]), cache, lanes, facts)
       call new_stepper(valve%stepper, lanes, settings_of(value), scale, t0)
    end subroutine make_stepper
 
