@@ -2,13 +2,14 @@
 module rv_api_run
    use, intrinsic :: iso_c_binding, only : c_associated, c_double, c_f_pointer, c_int, c_ptr, c_size_t
    use rv_kinds, only : i8
-   use omp_lib, only : omp_get_max_threads
+   use omp_lib, only : omp_get_max_threads, omp_get_thread_num
    use rv_error, only : error_type, rv_bad_input
    use rv_api_call, only : begin_call, refuse, settle, code_of_status, put_number, rv_ok, no_pointer, no_text
    use rv_block, only : block_bounds, block_count, block_result, run_block, trace_times, n_measures, n_traces, &
       & column_type, measure_columns, trace_columns
    use rv_c_text, only : give_text, take_text
    use rv_deck, only : deck_type
+   use rv_film_case, only : planform_cache
    use rv_handles, only : valve_type
    use rv_text, only : text_type
    implicit none
@@ -267,20 +268,23 @@ contains
       integer, intent(in) :: threads
       real(c_double), intent(inout) :: measure(:, :)   !! in the measures' units
       integer(c_int), intent(inout) :: status(:)
+      type(planform_cache), allocatable :: cache(:)   ! one a thread
       integer :: block, blocks
 
       blocks = block_count(deck)
-      !$omp parallel do schedule(dynamic, 1) num_threads(min(threads, blocks)) default(none) &
-      !$omp& shared(deck, blocks, measure, status)
+      allocate(cache(0:min(threads, blocks) - 1))
+      !$omp parallel do schedule(dynamic, 1) num_threads(size(cache)) default(none) &
+      !$omp& shared(deck, blocks, cache, measure, status)
       do block = 1, blocks
-         call run_one(deck, block, measure, status)
+         call run_one(deck, block, cache(omp_get_thread_num()), measure, status)
       end do
       !$omp end parallel do
    end subroutine run_all
 
-   subroutine run_one(deck, block, measure, status)
+   subroutine run_one(deck, block, cache, measure, status)
       type(deck_type), intent(in) :: deck
       integer, intent(in) :: block
+      type(planform_cache), intent(inout) :: cache
       real(c_double), intent(inout) :: measure(:, :)
       integer(c_int), intent(inout) :: status(:)
       type(block_result) :: result
@@ -289,7 +293,7 @@ contains
       integer :: i
 
       call block_bounds(deck, block, first, last)
-      call run_block(deck, first, last, result)
+      call run_block(deck, first, last, result, cache)
       column = measure_columns()
       do i = 1, n_measures
          measure(i, first:last) = result%measure(i, :)*column(i)%to_unit
