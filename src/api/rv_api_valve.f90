@@ -155,13 +155,8 @@ contains
       type(error_type), allocatable :: error
       character(len=:), allocatable :: name
       real(c_double) :: number
-      logical :: taken
 
-      call begin_call(self, valve, code)
-      if (.not. associated(valve)) return
-      call take_text(key, name, taken)
-      if (.not. taken) call refuse(valve, no_text, code)
-      if (.not. c_associated(value)) call refuse(valve, no_pointer, code)
+      call begin_get(self, key, value, valve, name, code)
       if (code /= rv_ok) return
       !$omp critical (rv_api_text)
       call valve%setup%get_number(name, number, error)
@@ -176,13 +171,8 @@ contains
       type(valve_type), pointer :: valve
       type(error_type), allocatable :: error
       character(len=:), allocatable :: name, word
-      logical :: taken
 
-      call begin_call(self, valve, code)
-      if (.not. associated(valve)) return
-      call take_text(key, name, taken)
-      if (.not. taken) call refuse(valve, no_text, code)
-      if (.not. c_associated(buffer)) call refuse(valve, no_pointer, code)
+      call begin_get(self, key, buffer, valve, name, code)
       if (code /= rv_ok) return
       !$omp critical (rv_api_text)
       call valve%setup%get_word(name, word, error)
@@ -190,6 +180,21 @@ contains
       call settle(valve, error, code)
       call give_text(word, buffer, size)
    end function rv_valve_get_text
+
+   !> A call that asks for the value of a key and tells it through a pointer.
+   subroutine begin_get(self, key, pointer, valve, name, code)
+      type(c_ptr), intent(in) :: self, key, pointer
+      type(valve_type), pointer, intent(out) :: valve
+      character(len=:), allocatable, intent(out) :: name
+      integer(c_int), intent(out) :: code
+      logical :: taken
+
+      call begin_call(self, valve, code)
+      if (.not. associated(valve)) return
+      call take_text(key, name, taken)
+      if (.not. taken) call refuse(valve, no_text, code)
+      if (.not. c_associated(pointer)) call refuse(valve, no_pointer, code)
+   end subroutine begin_get
 
    integer(c_int) function rv_key_count() result(n) bind(C)
       n = n_keys
@@ -200,11 +205,7 @@ contains
       type(c_ptr), value :: buffer
       integer(c_size_t), value :: size
 
-      code = rv_bad_input
-      call give_text("", buffer, size)
-      if (i < 0 .or. i >= n_keys) return
-      call give_text(trim(keys(i + 1)%group)//"."//trim(keys(i + 1)%name), buffer, size)
-      code = rv_ok
+      call give_key(i, .true., buffer, size, code)
    end function rv_key_name
 
    integer(c_int) function rv_key_unit(i, buffer, size) result(code) bind(C)
@@ -212,11 +213,25 @@ contains
       type(c_ptr), value :: buffer
       integer(c_size_t), value :: size
 
+      call give_key(i, .false., buffer, size, code)
+   end function rv_key_unit
+
+   !> Name or unit of the i-th key, from 0.
+   subroutine give_key(i, is_name, buffer, size, code)
+      integer(c_int), intent(in) :: i
+      logical, intent(in) :: is_name
+      type(c_ptr), intent(in) :: buffer
+      integer(c_size_t), intent(in) :: size
+      integer(c_int), intent(out) :: code
+
       code = rv_bad_input
       call give_text("", buffer, size)
       if (i < 0 .or. i >= n_keys) return
-      call give_text(trim(keys(i + 1)%unit), buffer, size)
+      associate (key => keys(i + 1))
+         if (is_name) call give_text(trim(key%group)//"."//trim(key%name), buffer, size)
+         if (.not. is_name) call give_text(trim(key%unit), buffer, size)
+      end associate
       code = rv_ok
-   end function rv_key_unit
+   end subroutine give_key
 
 end module rv_api_valve
