@@ -144,17 +144,12 @@ contains
       real(wp), intent(in) :: next(n)       !! lowest level still of interest [m]; that at `steady` is above the highest
       real(wp), intent(inout) :: highest(n)
       real(wp), intent(out) :: chance(n)
-      real(wp) :: reach, top, low, meet
+      real(wp) :: reach, top, low
       integer :: i
 
       do i = 1, n
          highest(i) = max(highest(i), u1(i))
-         top = max(u0(i), u1(i))
-         low = min(u0(i), u1(i))
-         meet = u0(i) + w0(i)*((u1(i) - u0(i) - w1(i)*dt)/(w0(i) - w1(i)))
-         reach = merge(allowance*max(meet - top, low - meet), 0.0_wp, w0(i)*w1(i) < 0.0_wp)
-         top = top + reach
-         low = low - reach
+         call look_around(dt, u0(i), u1(i), w0(i), w1(i), low, top, reach)
          chance(i) = max(min(top - next(i), steady(i) - low), merge(top - highest(i), -1.0_wp, reach > 0.0_wp))
       end do
    end subroutine look_up
@@ -167,20 +162,29 @@ contains
       real(wp), intent(in) :: next(n)    !! highest level still of interest [m]
       real(wp), intent(inout) :: lowest(n)
       real(wp), intent(out) :: chance(n)
-      real(wp) :: reach, top, low, meet
+      real(wp) :: reach, top, low
       integer :: i
 
       do i = 1, n
          lowest(i) = min(lowest(i), u1(i))
-         top = max(u0(i), u1(i))
-         low = min(u0(i), u1(i))
-         meet = u0(i) + w0(i)*((u1(i) - u0(i) - w1(i)*dt)/(w0(i) - w1(i)))
-         reach = merge(allowance*max(meet - top, low - meet), 0.0_wp, w0(i)*w1(i) < 0.0_wp)
-         top = top + reach
-         low = low - reach
+         call look_around(dt, u0(i), u1(i), w0(i), w1(i), low, top, reach)
          chance(i) = max(min(next(i) - low, top), merge(lowest(i) - low, -1.0_wp, reach > 0.0_wp))
       end do
    end subroutine look_down
+
+   !> Between what u lies within a step, and how much of that is due to a turn.
+   elemental subroutine look_around(dt, u0, u1, w0, w1, low, top, reach)
+      real(wp), intent(in) :: dt, u0, u1, w0, w1
+      real(wp), intent(out) :: low, top, reach
+      real(wp) :: meet
+
+      top = max(u0, u1)
+      low = min(u0, u1)
+      meet = u0 + w0*((u1 - u0 - w1*dt)/(w0 - w1))
+      reach = merge(allowance*max(meet - top, low - meet), 0.0_wp, w0*w1 < 0.0_wp)
+      top = top + reach
+      low = low - reach
+   end subroutine look_around
 
    !> Which lanes' film force may have a new maximum inside a step, those whose `chance` is positive: it rises at the
    !> start, falls at the end, and the tangents there meet above the largest so far. Notes the force at the end.
