@@ -30,7 +30,7 @@ module rv_film_table
    type :: film_table
       real(wp) :: lowest = 0.0_wp                  !! smallest x of the table
       real(wp) :: most_suction = 0.0_wp            !! largest suction over C_s u' where x >= 1 [m-2]
-      real(wp), private :: highest = 0.0_wp
+      real(wp), private :: highest = 0.0_wp        !! largest x
       real(wp), allocatable, private :: cubic(:, :)  !! (8, intervals): of Y, then of A [m2]
       real(wp), allocatable, private :: suction(:, :)     !! largest P_1 over C_s [m-2], (sides, 0:intervals)
       real(wp), allocatable, private :: low(:, :, :)      !! lowest p over the sum [-], (0:shares, sides, 0:intervals)
@@ -52,7 +52,7 @@ contains
       integer :: octave, part, k
 
       self%lowest = 2.0_wp**first_octave
-      self%highest = 2.0_wp**(last_octave + 1)
+      self%highest = 2.0_wp**(last_octave + 1)*(1.0_wp - epsilon(1.0_wp))
       allocate(self%cubic(8, intervals), self%suction(sides, 0:intervals), self%low(0:shares, sides, 0:intervals))
       call node_at(reed, gap, self%lowest, left, self%suction(:, 0), self%low(:, :, 0), error)
       if (allocated(error)) return
@@ -131,9 +131,9 @@ contains
       real(wp), intent(out) :: y, y_slope         !! [m-1], per unit of x
       real(wp), intent(out) :: area, area_slope   !! [m2]
       real(wp) :: s, per_x
-      integer :: k
+      integer(i8) :: k
 
-      call find_interval(self, x, k, s, per_x)
+      call find_interval(self%lowest, self%highest, x, k, s, per_x)
       call cubics(self%cubic(:, k), s, per_x, y, y_slope, area, area_slope)
    end subroutine look_up
 
@@ -154,7 +154,7 @@ contains
       real(wp), intent(in) :: x(:)
       real(wp), dimension(size(x)), intent(out) :: y, y_slope, area, area_slope
 
-      call interpolate(size(x), self%lowest, self%highest*(1.0_wp - epsilon(1.0_wp)), self%cubic, x, y, y_slope, area, area_slope)
+      call interpolate(size(x), self%lowest, self%highest, self%cubic, x, y, y_slope, area, area_slope)
    end subroutine look_up_all
 
    !> look_up of n numbers, eight at a time: neighbours of like cases are mostly in one interval and share its cubics.
@@ -170,7 +170,7 @@ contains
       integer :: i, j, m
 
       do i = 0, n - side, side
-         call find_intervals(side, lowest, highest, x(i + 1:i + side), k, s, per_x)
+         call find_interval(lowest, highest, x(i + 1:i + side), k, s, per_x)
          if (all(k == k(1))) then
             do j = 1, side
                call cubics(cubic(:, k(1)), s(j), per_x(j), y(i + j), y_slope(i + j), area(i + j), area_slope(i + j))
@@ -182,35 +182,12 @@ contains
          end if
       end do
       m = modulo(n, side)
-      call find_intervals(m, lowest, highest, x(n - m + 1:), k, s, per_x)
+      call find_interval(lowest, highest, x(n - m + 1:), k(:m), s(:m), per_x(:m))
       do j = 1, m
          i = n - m + j
          call cubics(cubic(:, k(j)), s(j), per_x(j), y(i), y_slope(i), area(i), area_slope(i))
       end do
    end subroutine interpolate
-
-   !> find_interval of n numbers in a loop that vectors can do.
-   pure subroutine find_intervals(n, lowest, highest, x, k, s, per_x)
-      integer, intent(in) :: n
-      real(wp), intent(in) :: lowest, highest, x(n)
-      integer(i8), intent(out) :: k(n)
-      real(wp), intent(out) :: s(n), per_x(n)
-      integer(i8), parameter :: bias = 1023, log2_parts = 2
-      real(wp) :: inside
-      integer(i8) :: octave, part
-      integer :: i
-
-      do i = 1, n
-         inside = merge(x(i), lowest, x(i) > lowest)
-         inside = merge(inside, highest, inside < highest)
-         octave = ishft(transfer(inside, 0_i8), -52) - bias
-         per_x(i) = transfer(ishft(bias + log2_parts - octave, 52), 0.0_wp)
-         s(i) = inside*per_x(i) - real(parts, wp)
-         part = int(s(i), i8)
-         s(i) = s(i) - real(part, wp)
-         k(i) = (octave - first_octave)*parts + part + 1
-      end do
-   end subroutine find_intervals
 
    !> Lowest pressure at the film's nodes, relative to p_out [Pa]. Beyond the table as look_up.
    elemental function lowest_pressure(self, x, drop, drag) result(lowest)
@@ -220,9 +197,10 @@ contains
       real(wp), intent(in) :: drag   !! C_s u' [N]; closing, < 0, draws no suction
       real(wp) :: lowest
       real(wp) :: suction, total, part, s, per_x
-      integer :: side, j, k
+      integer(i8) :: k
+      integer :: side, j
 
-      call find_interval(self, x, k, s, per_x)
+      call find_interval(self%lowest, self%highest, x, k, s, per_x)
       lowest = huge(lowest)
       do side = 1, sides
          suction = max(0.0_wp, drag)*(self%suction(side, k - 1) + s*(self%suction(side, k) - self%suction(side, k - 1)))
@@ -237,20 +215,22 @@ contains
       end do
    end function lowest_pressure
 
-   !> Interval k of x, the place s in it from 0 to 1, and ds/dx. Beyond the table the end next to x.
-   elemental subroutine find_interval(self, x, k, s, per_x)
-      type(film_table), intent(in) :: self
+   !> Interval k of x, the place s in it from 0 to 1, and ds/dx. Beyond the table the end next to x; of NaN the lowest.
+   elemental subroutine find_interval(lowest, highest, x, k, s, per_x)
+      real(wp), intent(in) :: lowest, highest   !! of the table
       real(wp), intent(in) :: x
-      integer, intent(out) :: k
+      integer(i8), intent(out) :: k
       real(wp), intent(out) :: s, per_x
+      integer(i8), parameter :: bias = 1023, log2_parts = 2
       real(wp) :: inside
-      integer :: octave, part
+      integer(i8) :: octave, part
 
-      inside = merge(min(x, self%highest*(1.0_wp - epsilon(x))), self%lowest, x > self%lowest)   ! NaN: lowest
-      octave = int(ibits(transfer(inside, 0_i8), 52, 11)) - 1023   ! inside = 2^octave (1 + fraction)
-      per_x = real(parts, wp)/2.0_wp**octave
+      inside = merge(x, lowest, x > lowest)
+      inside = merge(inside, highest, inside < highest)
+      octave = ishft(transfer(inside, 0_i8), -52) - bias   ! inside = 2^octave (1 + fraction)
+      per_x = transfer(ishft(bias + log2_parts - octave, 52), 0.0_wp)
       s = inside*per_x - real(parts, wp)
-      part = int(s)
+      part = int(s, i8)
       s = s - real(part, wp)
       k = (octave - first_octave)*parts + part + 1
    end subroutine find_interval
