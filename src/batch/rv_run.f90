@@ -189,7 +189,8 @@ contains
       outcome%unlocked = .not. folder%has_lock
       call read_manifest(folder, manifest, found, error)
       if (.not. (allocated(error) .or. found)) then
-         call fail(error, rv_bad_input, "'"//folder%path//"' holds no parts of a run; there is nothing to merge")
+         call fail(error, rv_bad_input, "'"//folder%path//"' holds no parts of a run: there is nothing to merge, " &
+            & //"or its results are in place already")
       else if (.not. allocated(error) .and. manifest%code_version /= code_version) then
          call fail(error, rv_bad_input, "the parts in '"//folder%path//"' were made by reedvalve " &
             & //manifest%code_version//" and this is "//code_version//"; merge them with that version")
