@@ -83,6 +83,26 @@ sweep_deck() {
 END
 }
 
+# milliseconds DECK: processor time of a run on one thread, which other work on this machine does not change
+milliseconds() {
+   ("$program" run "$1" -o timed --force --quiet --threads 1 >out.txt 2>err.txt; times) \
+      | awk 'NR == 2 { split($1, t, "m"); printf "%d", 1000*(60*t[1] + t[2]) }'
+   rm -rf timed
+}
+
+# slow_count LENGTH: for sweep_deck, as many cases in a block as make a run on one thread take so many milliseconds
+slow_count() {
+   count=20
+   for attempt in 1 2; do
+      sweep_deck $count >try.nml
+      length=$(milliseconds try.nml)
+      [ $((4 * length)) -lt $((3 * $1)) ] || break
+      count=$((count * $1 / (length + 1) + 1))
+   done
+   rm -f try.nml
+   echo $count
+}
+
 finish() {
    echo "$passed passed, $failed failed"
    [ "$failed" = 0 ] && [ "$passed" -gt 0 ]

@@ -1,6 +1,6 @@
 # kill -9 at random moments, then --resume with another number of threads: the bytes of an unbroken run.
 . "$(dirname "$0")/common.sh"
-sweep_deck 30 >deck.nml
+sweep_deck "$(slow_count 600)" >deck.nml
 
 start=$(date +%s%N)
 expect 0 'none failed' run deck.nml -o whole --threads 2

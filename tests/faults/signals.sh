@@ -1,6 +1,6 @@
 # Ctrl-C and SIGTERM: the blocks under way are finished, exit 1, a message how to go on, and the same bytes in the end.
 . "$(dirname "$0")/common.sh"
-sweep_deck 30 >deck.nml
+sweep_deck "$(slow_count 600)" >deck.nml
 expect 0 'none failed' run deck.nml -o whole
 for signal in INT TERM; do
    for threads in 1 2; do
