@@ -119,6 +119,12 @@ static void test_settings(void) {
   CHECK(rv_key_name(0, text, sizeof text) == RV_OK && strcmp(text, "run.title") == 0);
   CHECK(rv_key_unit(3, text, sizeof text) == RV_OK && strcmp(text, "ms") == 0);
   CHECK(rv_key_name(rv_key_count(), text, sizeof text) == RV_BAD_INPUT && text[0] == '\0');
+  CHECK(rv_key_help(1, text, sizeof text) == RV_OK && strncmp(text, "the valve model", 15) == 0);
+  CHECK(rv_key_help(-1, text, sizeof text) == RV_BAD_INPUT && text[0] == '\0');
+  CHECK(rv_key_kind(0) == RV_TEXT && rv_key_kind(1) == RV_CHOICE && rv_key_kind(3) == RV_REAL);
+  CHECK(rv_key_kind(4) == RV_LOGICAL && rv_key_kind(6) == RV_INTEGER);
+  CHECK(rv_key_kind(-1) == 0 && rv_key_kind(rv_key_count()) == 0);
+  CHECK(rv_version_text(text, sizeof text) == RV_OK && strcmp(text, VERSION) == 0);
   CHECK(rv_measure_name(0, text, sizeof text) == RV_OK && strcmp(text, "steady_mm") == 0);
   CHECK(rv_measure_unit(8, text, sizeof text) == RV_OK && strcmp(text, "N") == 0);
   CHECK(rv_trace_name(RV_LEAKAGE, text, sizeof text) == RV_OK && strcmp(text, "leakage_mm3_ms") == 0);
