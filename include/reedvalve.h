@@ -93,6 +93,9 @@ int rv_valve_set_text(rv_valve *self, const char *key, const char *value);
 int rv_valve_get_real(rv_valve *self, const char *key, double *value);
 int rv_valve_get_text(rv_valve *self, const char *key, char *buffer, size_t size);
 
+/* 1: the key was set, by the deck or since; 0: it has its default. */
+int rv_valve_is_set(rv_valve *self, const char *key, int *is_set);
+
 /* All keys, i from 0 to rv_key_count() - 1: name, unit, what it means, and its rv_kind (0: there is no such key). */
 int rv_key_count(void);
 int rv_key_name(int i, char *buffer, size_t size);

@@ -10,7 +10,7 @@ module rv_api_valve
    implicit none
    private
    public :: rv_valve_new, rv_valve_new_deck, rv_valve_free, rv_valve_message
-   public :: rv_valve_set_real, rv_valve_set_text, rv_valve_get_real, rv_valve_get_text
+   public :: rv_valve_set_real, rv_valve_set_text, rv_valve_get_real, rv_valve_get_text, rv_valve_is_set
 
 contains
 
@@ -178,6 +178,24 @@ contains
       call settle(valve, error, code)
       call give_text(word, buffer, size)
    end function rv_valve_get_text
+
+   integer(c_int) function rv_valve_is_set(self, key, is_set) result(code) bind(C)
+      type(c_ptr), value :: self, key, is_set
+      type(valve_type), pointer :: valve
+      type(error_type), allocatable :: error
+      character(len=:), allocatable :: name
+      integer(c_int), pointer :: place
+      logical :: set
+
+      call begin_get(self, key, is_set, valve, name, code)
+      if (code /= rv_ok) return
+      !$omp critical (rv_api_text)
+      call valve%setup%tell_set(name, set, error)
+      !$omp end critical (rv_api_text)
+      call settle(valve, error, code)
+      call c_f_pointer(is_set, place)
+      place = merge(1, 0, set)
+   end function rv_valve_is_set
 
    !> A call that asks for the value of a key and tells it through a pointer.
    subroutine begin_get(self, key, pointer, valve, name, code)

@@ -89,10 +89,13 @@ static void test_texts_at_once(void) {
 static void test_settings(void) {
   rv_valve *valve;
   double value = 0.0;
+  int is_set = -1;
   char text[100];
   CHECK(rv_valve_new(&valve) == RV_OK);
   GOOD(valve, rv_valve_get_real(valve, "film.gap_mm", &value));
   CHECK(value == 0.05); /* the default of docs/decks.md */
+  GOOD(valve, rv_valve_is_set(valve, "film.gap_mm", &is_set));
+  CHECK(is_set == 0);
   GOOD(valve, rv_valve_get_text(valve, "run.start", text, sizeof text));
   CHECK(strcmp(text, "rest") == 0);
   GOOD(valve, rv_valve_get_text(valve, "Film.Gap_mm", text, sizeof text));
@@ -100,6 +103,10 @@ static void test_settings(void) {
   GOOD(valve, rv_valve_get_text(valve, "run.model", text, 4));
   CHECK(strcmp(text, "squ") == 0);
   GOOD(valve, rv_valve_set_text(valve, "film.gap_mm", "0.04"));
+  GOOD(valve, rv_valve_is_set(valve, "FILM.gap_mm", &is_set));
+  CHECK(is_set == 1);
+  CHECK(rv_valve_is_set(valve, "film.gap", &is_set) == RV_BAD_INPUT);
+  CHECK(rv_valve_is_set(valve, "film.gap_mm", NULL) == RV_BAD_INPUT);
   GOOD(valve, rv_valve_get_real(valve, "film.gap_mm", &value));
   CHECK(value == 0.04);
   GOOD(valve, rv_valve_set_real(valve, "film.gap_mm", 0.1 + 0.2)); /* 17 digits survive */
