@@ -13,7 +13,7 @@ C     WRONG USE.
       CALL TWRONG
       CALL TDECK
       WRITE (*, *) NPASS, ' passed,', NFAIL, ' failed'
-      IF (NFAIL .GT. 0 .OR. NPASS .LT. 400) CALL EXIT(1)
+      IF (NFAIL .GT. 0 .OR. NPASS .LT. 400) STOP 1
       END
 
       SUBROUTINE CHECK(WHAT, TRUE)
