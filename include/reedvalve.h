@@ -1,7 +1,8 @@
 /* reedvalve: dynamics of cantilever reed valves with squeeze flow, as a C library.
  *
- * Results. Every function of type int returns RV_OK or another rv_code, but for the counts. Nothing is printed and the
- *    program is never stopped. After a call with a valve, rv_valve_message tells why it failed, or what it warns of.
+ * Results. Every function of type int returns RV_OK or another rv_code, but for the counts and rv_key_kind. Nothing is
+ *    printed and the program is never stopped. After a call with a valve, rv_valve_message tells why it failed, or what
+ *    it warns of.
  * Handles. An rv_valve is a handle, not an address to look behind. NULL, a closed handle, a copy of a closed one and any
  *    other pointer are RV_BAD_INPUT. What is made by rv_valve_new or rv_valve_new_deck is closed by rv_valve_free.
  * Ownership. Every other pointer is the caller's memory and is not kept after the call. Texts are NUL-terminated, at
@@ -41,6 +42,15 @@ enum rv_case {
   RV_CASE_BAD_CASE = 6
 };
 
+/* What a key takes. */
+enum rv_kind {
+  RV_REAL = 1,
+  RV_INTEGER = 2,
+  RV_LOGICAL = 3, /* .true. or .false. */
+  RV_CHOICE = 4,  /* one of some words */
+  RV_TEXT = 5
+};
+
 /* Outputs of stepping, at the time reached. Those after RV_FILM_FORCE are of the film models only, else NaN. */
 enum rv_out {
   RV_DISPLACEMENT = 0, /* of the tip, positive when open [m] */
@@ -54,6 +64,9 @@ enum rv_out {
   RV_LEAKAGE = 8,      /* flow out of the film at the free edges [m3/s] */
   RV_FILM_LOW = 9      /* lowest pressure in the film [Pa] */
 };
+
+/* The version of the library, "0.1.0". */
+int rv_version_text(char *buffer, size_t size);
 
 /* ---- A valve and its settings ---- */
 
@@ -80,10 +93,15 @@ int rv_valve_set_text(rv_valve *self, const char *key, const char *value);
 int rv_valve_get_real(rv_valve *self, const char *key, double *value);
 int rv_valve_get_text(rv_valve *self, const char *key, char *buffer, size_t size);
 
-/* All keys, i from 0 to rv_key_count() - 1. */
+/* 1: the key was set, by the deck or since; 0: it has its default. */
+int rv_valve_is_set(rv_valve *self, const char *key, int *is_set);
+
+/* All keys, i from 0 to rv_key_count() - 1: name, unit, what it means, and its rv_kind (0: there is no such key). */
 int rv_key_count(void);
 int rv_key_name(int i, char *buffer, size_t size);
 int rv_key_unit(int i, char *buffer, size_t size);
+int rv_key_help(int i, char *buffer, size_t size);
+int rv_key_kind(int i);
 
 /* ---- Whole cases ---- */
 

@@ -6,13 +6,11 @@ module rv_api_valve
    use rv_api_call, only : begin_call, refuse, settle, put_number, rv_ok, no_valve, no_pointer, no_text
    use rv_c_text, only : give_text, take_text
    use rv_handles, only : valve_type, open_handle, close_handle, valve_of
-   use rv_keys, only : keys, n_keys
    use rv_setup, only : new_setup, read_setup
    implicit none
    private
    public :: rv_valve_new, rv_valve_new_deck, rv_valve_free, rv_valve_message
-   public :: rv_valve_set_real, rv_valve_set_text, rv_valve_get_real, rv_valve_get_text
-   public :: rv_key_count, rv_key_name, rv_key_unit
+   public :: rv_valve_set_real, rv_valve_set_text, rv_valve_get_real, rv_valve_get_text, rv_valve_is_set
 
 contains
 
@@ -181,6 +179,24 @@ contains
       call give_text(word, buffer, size)
    end function rv_valve_get_text
 
+   integer(c_int) function rv_valve_is_set(self, key, is_set) result(code) bind(C)
+      type(c_ptr), value :: self, key, is_set
+      type(valve_type), pointer :: valve
+      type(error_type), allocatable :: error
+      character(len=:), allocatable :: name
+      integer(c_int), pointer :: place
+      logical :: set
+
+      call begin_get(self, key, is_set, valve, name, code)
+      if (code /= rv_ok) return
+      !$omp critical (rv_api_text)
+      call valve%setup%tell_set(name, set, error)
+      !$omp end critical (rv_api_text)
+      call settle(valve, error, code)
+      call c_f_pointer(is_set, place)
+      place = merge(1, 0, set)
+   end function rv_valve_is_set
+
    !> A call that asks for the value of a key and tells it through a pointer.
    subroutine begin_get(self, key, pointer, valve, name, code)
       type(c_ptr), intent(in) :: self, key, pointer
@@ -195,43 +211,5 @@ contains
       if (.not. taken) call refuse(valve, no_text, code)
       if (.not. c_associated(pointer)) call refuse(valve, no_pointer, code)
    end subroutine begin_get
-
-   integer(c_int) function rv_key_count() result(n) bind(C)
-      n = n_keys
-   end function rv_key_count
-
-   integer(c_int) function rv_key_name(i, buffer, size) result(code) bind(C)
-      integer(c_int), value :: i
-      type(c_ptr), value :: buffer
-      integer(c_size_t), value :: size
-
-      call give_key(i, .true., buffer, size, code)
-   end function rv_key_name
-
-   integer(c_int) function rv_key_unit(i, buffer, size) result(code) bind(C)
-      integer(c_int), value :: i
-      type(c_ptr), value :: buffer
-      integer(c_size_t), value :: size
-
-      call give_key(i, .false., buffer, size, code)
-   end function rv_key_unit
-
-   !> Name or unit of the i-th key, from 0.
-   subroutine give_key(i, is_name, buffer, size, code)
-      integer(c_int), intent(in) :: i
-      logical, intent(in) :: is_name
-      type(c_ptr), intent(in) :: buffer
-      integer(c_size_t), intent(in) :: size
-      integer(c_int), intent(out) :: code
-
-      code = rv_bad_input
-      call give_text("", buffer, size)
-      if (i < 0 .or. i >= n_keys) return
-      associate (key => keys(i + 1))
-         if (is_name) call give_text(trim(key%group)//"."//trim(key%name), buffer, size)
-         if (.not. is_name) call give_text(trim(key%unit), buffer, size)
-      end associate
-      code = rv_ok
-   end subroutine give_key
 
 end module rv_api_valve

@@ -31,6 +31,7 @@ module rv_setup
       procedure :: set
       procedure :: get_number
       procedure :: get_word
+      procedure :: tell_set
       procedure :: check
       procedure :: sweep
    end type setup_type
@@ -190,6 +191,19 @@ contains
       if (key == key_run_title) word = deck%title
       if (key == key_pressure_file .and. size(deck%trace_name) > 0) word = deck%trace_name(1)%s
    end subroutine get_word
+
+   !> Whether a key has been given, by the deck or by `set`.
+   subroutine tell_set(self, name, is_set, error)
+      class(setup_type), intent(in) :: self
+      character(len=*), intent(in) :: name
+      logical, intent(out) :: is_set
+      type(error_type), allocatable, intent(out) :: error
+      integer :: key
+
+      is_set = .false.
+      call find_any_key(name, key, error)
+      if (.not. allocated(error)) is_set = self%deck%given(key)
+   end subroutine tell_set
 
    !> Make `ready`: what keys must share, and the trace file.
    subroutine check(self, warnings, error)

@@ -82,6 +82,7 @@ static void call_sweep(rv_valve *valve) {
 static void call_any(rv_valve **valve) {
   char text[60];
   double value;
+  int is_set;
   switch (draw(16)) {
     case 0:
       if (*valve == NULL || draw(4) == 0) rv_valve_free(valve);
@@ -110,6 +111,7 @@ static void call_any(rv_valve **valve) {
       break;
     case 8:
       check_code(rv_valve_get_text(*valve, word(), text, draw(sizeof text)));
+      check_code(rv_valve_is_set(*valve, word(), draw(8) > 0 ? &is_set : NULL));
       break;
     case 9:
       check_code(rv_valve_begin(*valve, draw(6) > 0 ? 0.0 : number()));

@@ -89,10 +89,13 @@ static void test_texts_at_once(void) {
 static void test_settings(void) {
   rv_valve *valve;
   double value = 0.0;
+  int is_set = -1;
   char text[100];
   CHECK(rv_valve_new(&valve) == RV_OK);
   GOOD(valve, rv_valve_get_real(valve, "film.gap_mm", &value));
   CHECK(value == 0.05); /* the default of docs/decks.md */
+  GOOD(valve, rv_valve_is_set(valve, "film.gap_mm", &is_set));
+  CHECK(is_set == 0);
   GOOD(valve, rv_valve_get_text(valve, "run.start", text, sizeof text));
   CHECK(strcmp(text, "rest") == 0);
   GOOD(valve, rv_valve_get_text(valve, "Film.Gap_mm", text, sizeof text));
@@ -100,6 +103,10 @@ static void test_settings(void) {
   GOOD(valve, rv_valve_get_text(valve, "run.model", text, 4));
   CHECK(strcmp(text, "squ") == 0);
   GOOD(valve, rv_valve_set_text(valve, "film.gap_mm", "0.04"));
+  GOOD(valve, rv_valve_is_set(valve, "FILM.gap_mm", &is_set));
+  CHECK(is_set == 1);
+  CHECK(rv_valve_is_set(valve, "film.gap", &is_set) == RV_BAD_INPUT);
+  CHECK(rv_valve_is_set(valve, "film.gap_mm", NULL) == RV_BAD_INPUT);
   GOOD(valve, rv_valve_get_real(valve, "film.gap_mm", &value));
   CHECK(value == 0.04);
   GOOD(valve, rv_valve_set_real(valve, "film.gap_mm", 0.1 + 0.2)); /* 17 digits survive */
@@ -119,6 +126,12 @@ static void test_settings(void) {
   CHECK(rv_key_name(0, text, sizeof text) == RV_OK && strcmp(text, "run.title") == 0);
   CHECK(rv_key_unit(3, text, sizeof text) == RV_OK && strcmp(text, "ms") == 0);
   CHECK(rv_key_name(rv_key_count(), text, sizeof text) == RV_BAD_INPUT && text[0] == '\0');
+  CHECK(rv_key_help(1, text, sizeof text) == RV_OK && strncmp(text, "the valve model", 15) == 0);
+  CHECK(rv_key_help(-1, text, sizeof text) == RV_BAD_INPUT && text[0] == '\0');
+  CHECK(rv_key_kind(0) == RV_TEXT && rv_key_kind(1) == RV_CHOICE && rv_key_kind(3) == RV_REAL);
+  CHECK(rv_key_kind(4) == RV_LOGICAL && rv_key_kind(6) == RV_INTEGER);
+  CHECK(rv_key_kind(-1) == 0 && rv_key_kind(rv_key_count()) == 0);
+  CHECK(rv_version_text(text, sizeof text) == RV_OK && strcmp(text, VERSION) == 0);
   CHECK(rv_measure_name(0, text, sizeof text) == RV_OK && strcmp(text, "steady_mm") == 0);
   CHECK(rv_measure_unit(8, text, sizeof text) == RV_OK && strcmp(text, "N") == 0);
   CHECK(rv_trace_name(RV_LEAKAGE, text, sizeof text) == RV_OK && strcmp(text, "leakage_mm3_ms") == 0);
