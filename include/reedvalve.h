@@ -117,6 +117,13 @@ int rv_measure_count(void);
 int rv_measure_name(int i, char *buffer, size_t size);
 int rv_measure_unit(int i, char *buffer, size_t size);
 
+/* A fact by its name, "wet_frequency_hz": a number of the model behind the case, as in results.nc. Names and units: i from 0
+ * to rv_fact_count() - 1. Fact "solver_method" is 1 after an implicit integration, 2 after an explicit one. */
+int rv_valve_fact(rv_valve *self, const char *name, double *value);
+int rv_fact_count(void);
+int rv_fact_name(int i, char *buffer, size_t size);
+int rv_fact_unit(int i, char *buffer, size_t size);
+
 /* Traces, if run.traces is .true.: the number of samples, their times [s], and trace i, in the order of rv_out, in the
  * unit rv_trace_unit(i). `samples` must be that number. */
 int rv_valve_trace_size(rv_valve *self, size_t *samples);

@@ -1,26 +1,27 @@
 !> C API: whole cases, their measures and traces, and sweeps of many cases. See reedvalve.h.
 module rv_api_run
    use, intrinsic :: iso_c_binding, only : c_associated, c_double, c_f_pointer, c_int, c_ptr, c_size_t
-   use rv_kinds, only : i8
+   use rv_kinds, only : wp, i8
    use omp_lib, only : omp_get_max_threads, omp_get_thread_num
    use rv_error, only : error_type, rv_bad_input
    use rv_api_call, only : begin_call, refuse, settle, code_of_status, put_number, rv_ok, no_pointer, no_text
-   use rv_block, only : block_bounds, block_count, block_result, run_block, trace_times, n_measures, n_traces, &
-      & column_type, measure_columns, trace_columns
+   use rv_block, only : block_bounds, block_count, block_result, run_block, trace_times, n_facts, n_measures, &
+      & n_traces, column_type, fact_columns, measure_columns, trace_columns
    use rv_c_text, only : give_text, take_text
    use rv_deck, only : deck_type
    use rv_film_case, only : planform_cache
    use rv_handles, only : valve_type
-   use rv_text, only : text_type
+   use rv_text, only : text_type, to_text
    implicit none
    private
    public :: rv_valve_run, rv_valve_status, rv_valve_measure, rv_measure_count, rv_measure_name, rv_measure_unit
+   public :: rv_valve_fact, rv_fact_count, rv_fact_name, rv_fact_unit
    public :: rv_valve_trace_size, rv_valve_trace_times, rv_valve_trace, rv_trace_count, rv_trace_name, rv_trace_unit
    public :: rv_sweep
 
    integer, parameter :: most_threads = 1024
    integer(c_size_t), parameter :: most_cases = 2000000000_c_size_t
-   character(len=*), parameter :: not_run = "there are no results: rv_valve_run must come first, after all settings"
+   character(len=*), parameter :: not_run = "there are no results: run the valve first, after all settings"
 
 contains
 
@@ -59,28 +60,43 @@ contains
    integer(c_int) function rv_valve_measure(self, name, value) result(code) bind(C)
       type(c_ptr), value :: self, name, value
       type(valve_type), pointer :: valve
+
+      call begin_results(self, value, valve, code)
+      if (code == rv_ok) call give_number(valve, measure_columns(), valve%result%measure(:, 1), name, value, code)
+   end function rv_valve_measure
+
+   integer(c_int) function rv_valve_fact(self, name, value) result(code) bind(C)
+      type(c_ptr), value :: self, name, value
+      type(valve_type), pointer :: valve
+
+      call begin_results(self, value, valve, code)
+      if (code == rv_ok) call give_number(valve, fact_columns(), valve%result%fact(:, 1), name, value, code)
+   end function rv_valve_fact
+
+   !> One of these numbers, by the name of its column and in its unit.
+   subroutine give_number(valve, column, number, name, value, code)
+      type(valve_type), intent(inout) :: valve
+      type(column_type), intent(in) :: column(:)
+      real(wp), intent(in) :: number(:)    !! SI
+      type(c_ptr), intent(in) :: name, value
+      integer(c_int), intent(out) :: code
       character(len=:), allocatable :: word
       logical :: taken
       integer :: i
 
-      call begin_results(self, value, valve, code)
-      if (code /= rv_ok) return
       call take_text(name, word, taken)
       if (.not. taken) then
          call refuse(valve, no_text, code)
          return
       end if
-      associate (column => measure_columns())
-         do i = 1, n_measures
-            if (column(i)%name == word) exit
-         end do
-         if (i > n_measures) then
-            call refuse(valve, "'"//word//"': there is no such measure", code)
-         else
-            call put_number(valve%result%measure(i, 1)*column(i)%to_unit, value)
-         end if
-      end associate
-   end function rv_valve_measure
+      do i = 1, size(column)
+         if (column(i)%name /= word) cycle
+         call put_number(number(i)*column(i)%to_unit, value)
+         code = rv_ok
+         return
+      end do
+      call refuse(valve, "'"//word(:min(len(word), 60))//"': there is no such name", code)
+   end subroutine give_number
 
    !> A call that asks for results and tells them through a pointer.
    subroutine begin_results(self, pointer, valve, code)
@@ -113,6 +129,26 @@ contains
 
       call give_column(measure_columns(), i, .false., buffer, size, code)
    end function rv_measure_unit
+
+   integer(c_int) function rv_fact_count() result(n) bind(C)
+      n = n_facts
+   end function rv_fact_count
+
+   integer(c_int) function rv_fact_name(i, buffer, size) result(code) bind(C)
+      integer(c_int), value :: i
+      type(c_ptr), value :: buffer
+      integer(c_size_t), value :: size
+
+      call give_column(fact_columns(), i, .true., buffer, size, code)
+   end function rv_fact_name
+
+   integer(c_int) function rv_fact_unit(i, buffer, size) result(code) bind(C)
+      integer(c_int), value :: i
+      type(c_ptr), value :: buffer
+      integer(c_size_t), value :: size
+
+      call give_column(fact_columns(), i, .false., buffer, size, code)
+   end function rv_fact_unit
 
    integer(c_int) function rv_trace_count() result(n) bind(C)
       n = n_traces
@@ -201,7 +237,7 @@ contains
       integer(c_int), intent(inout) :: code
 
       if (samples == size(valve%time, kind=c_size_t)) return
-      call refuse(valve, "the array must have as many elements as rv_valve_trace_size tells", code)
+      call refuse(valve, "the array must have "//to_text(size(valve%time))//" elements, one for each sample", code)
    end subroutine check_samples
 
    integer(c_int) function rv_sweep(self, n_keys, keys, n_cases, values, measures, status, threads) result(code) bind(C)

@@ -24,7 +24,7 @@ module rv_api_step
 
    real(wp), parameter :: least_scale = 1.0_wp   !! of a pressure difference; else no tolerance would be met [Pa]
    real(wp), parameter :: shortest = 16.0_wp*epsilon(1.0_wp)   !! step, relative to the time
-   character(len=*), parameter :: not_begun = "there is no state: rv_valve_begin must come first, after all settings"
+   character(len=*), parameter :: not_begun = "there is no state: begin first, after all settings"
 
 contains
 
@@ -227,7 +227,7 @@ contains
          call refuse(valve, no_pointer, code)
       else if (size /= 8_c_size_t*state_count(valve%stepper)) then
          call refuse(valve, "a state of this valve has "//to_text(8_i8*state_count(valve%stepper)) &
-            & //" bytes; rv_valve_state_size tells", code)
+            & //" bytes: "//to_text(state_count(valve%stepper))//" numbers of 8", code)
       end if
    end subroutine begin_state
 

@@ -64,7 +64,7 @@ contains
          call fail(error, rv_bad_input, warnings)
       else if (self%deck%case_count() /= 1_i8) then
          call fail(error, rv_bad_input, path//": a deck of "//to_text(self%deck%case_count()) &
-            & //" cases; a valve is one case, rv_sweep runs many")
+            & //" cases; a valve is one case, a sweep runs many")
       end if
       if (allocated(error)) return
       call self%deck%case_values(1_i8, value)
@@ -132,7 +132,7 @@ contains
       call find_any_key(name, key, error)
       if (allocated(error)) return
       call read_value(key, word, any(keys(key)%kind == [choice_key, text_key]), value, trouble)
-      if (is_number .and. keys(key)%kind == text_key) trouble = "it is a word, no number; rv_valve_set_text sets it"
+      if (is_number .and. keys(key)%kind == text_key) trouble = "it is a word: set it as text"
       if (key == key_film_fields_ms) trouble = "pressure fields go to the results of a run of a deck; a valve has none"
       if (trouble /= "") then
          call fail(error, rv_bad_input, full_name(key)//" = "//clip(word, 40)//": "//trouble)
@@ -164,7 +164,7 @@ contains
       call find_any_key(name, key, error)
       if (allocated(error)) return
       if (any(keys(key)%kind == [choice_key, text_key])) then
-         call fail(error, rv_bad_input, full_name(key)//": it is a word, no number; rv_valve_get_text tells it")
+         call fail(error, rv_bad_input, full_name(key)//": it is a word: ask for it as text")
          return
       end if
       all_values = self%deck%value
@@ -312,7 +312,7 @@ contains
       do other = 1, n_keys
          if (keys(other)%name == low) advice = "; write it with its group: '"//full_name(other)//"'"
       end do
-      if (key > n_keys) advice = " of one valve; rv_sweep runs many cases"
+      if (key > n_keys) advice = " of one valve; a sweep runs many cases"
       call fail(error, rv_bad_input, "'"//clip(name, 60)//"': there is no such key"//advice)
    end subroutine find_any_key
 

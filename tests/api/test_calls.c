@@ -63,6 +63,7 @@ static void call_run(rv_valve *valve) {
   check_code(rv_valve_run(valve));
   check_code(rv_valve_status(valve, draw(8) > 0 ? &status : NULL));
   check_code(rv_valve_measure(valve, word(), &value));
+  check_code(rv_valve_fact(valve, draw(2) ? word() : "reynolds", draw(8) > 0 ? &value : NULL));
   if (rv_valve_trace_size(valve, &samples) != RV_OK) return;
   trace = malloc((samples + 1) * sizeof *trace);
   check_code(rv_valve_trace(valve, (int)draw(12) - 1, trace, samples));

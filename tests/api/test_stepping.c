@@ -163,9 +163,9 @@ static void test_wrong_uses(void) {
   size_t bytes = 0;
   double before, after;
   char state[400];
-  FAILS(valve, rv_valve_step(valve, 1.0, 0.0, 0.0, 0.0, 0.0), RV_BAD_INPUT, "rv_valve_begin must come first");
-  FAILS(valve, rv_valve_state_size(valve, &bytes), RV_BAD_INPUT, "rv_valve_begin must come first");
-  FAILS(valve, rv_valve_output(valve, RV_VELOCITY, &after), RV_BAD_INPUT, "rv_valve_begin must come first");
+  FAILS(valve, rv_valve_step(valve, 1.0, 0.0, 0.0, 0.0, 0.0), RV_BAD_INPUT, "begin first");
+  FAILS(valve, rv_valve_state_size(valve, &bytes), RV_BAD_INPUT, "begin first");
+  FAILS(valve, rv_valve_output(valve, RV_VELOCITY, &after), RV_BAD_INPUT, "begin first");
   FAILS(valve, rv_valve_begin(valve, NAN), RV_BAD_INPUT, "finite");
   GOOD(valve, rv_valve_begin(valve, 0.0));
   GOOD(valve, rv_valve_step(valve, 1e-3, 0.0, 20000.0, 0.0, 0.0));
@@ -189,10 +189,10 @@ static void test_wrong_uses(void) {
   GOOD(valve, rv_valve_state_restore(valve, state, bytes));
   GOOD(valve, rv_valve_step(valve, 2e-3, 20000.0, 20000.0, 0.0, 0.0));
   GOOD(valve, rv_valve_set_real(valve, "film.k_s", 0.008));
-  FAILS(valve, rv_valve_step(valve, 3e-3, 0.0, 0.0, 0.0, 0.0), RV_BAD_INPUT, "rv_valve_begin must come first");
+  FAILS(valve, rv_valve_step(valve, 3e-3, 0.0, 0.0, 0.0, 0.0), RV_BAD_INPUT, "begin first");
   GOOD(valve, rv_valve_set_real(valve, "film.gap_mm", 0.0));
   FAILS(valve, rv_valve_begin(valve, 0.0), RV_DOMAIN, "the gap is 0");
-  FAILS(valve, rv_valve_step(valve, 3e-3, 0.0, 0.0, 0.0, 0.0), RV_BAD_INPUT, "rv_valve_begin must come first");
+  FAILS(valve, rv_valve_step(valve, 3e-3, 0.0, 0.0, 0.0, 0.0), RV_BAD_INPUT, "begin first");
   rv_valve_free(&valve);
 }
 

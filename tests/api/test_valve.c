@@ -149,15 +149,15 @@ static void test_wrong_settings(void) {
   FAILS(valve, rv_valve_set_real(valve, "film.gap_m", 1.0), RV_BAD_INPUT, "did you mean 'film.gap_mm'?");
   FAILS(valve, rv_valve_set_real(valve, "gap_mm", 1.0), RV_BAD_INPUT, "'film.gap_mm'");
   FAILS(valve, rv_valve_set_real(valve, "", 1.0), RV_BAD_INPUT, "no such key");
-  FAILS(valve, rv_valve_set_real(valve, "sweep.count", 2.0), RV_BAD_INPUT, "rv_sweep");
+  FAILS(valve, rv_valve_set_real(valve, "sweep.count", 2.0), RV_BAD_INPUT, "a sweep");
   FAILS(valve, rv_valve_set_real(valve, "film.fields_ms", 2.0), RV_BAD_INPUT, "pressure fields");
   FAILS(valve, rv_valve_set_real(valve, "solver.max_steps", 1.5), RV_BAD_INPUT, "whole number");
-  FAILS(valve, rv_valve_set_real(valve, "pressure.file", 1.0), RV_BAD_INPUT, "no number");
+  FAILS(valve, rv_valve_set_real(valve, "pressure.file", 1.0), RV_BAD_INPUT, "as text");
   FAILS(valve, rv_valve_set_text(valve, "run.model", "squeze"), RV_BAD_INPUT, "did you mean 'squeeze'?");
   FAILS(valve, rv_valve_set_text(valve, "film.gap_mm", "0.05mm"), RV_BAD_INPUT, "its unit is mm");
   FAILS(valve, rv_valve_set_real(valve, NULL, 1.0), RV_BAD_INPUT, "NULL");
   FAILS(valve, rv_valve_set_text(valve, "run.model", NULL), RV_BAD_INPUT, "NULL");
-  FAILS(valve, rv_valve_get_real(valve, "run.model", &value), RV_BAD_INPUT, "rv_valve_get_text");
+  FAILS(valve, rv_valve_get_real(valve, "run.model", &value), RV_BAD_INPUT, "as text");
   FAILS(valve, rv_valve_get_real(valve, "film.gap_mm", NULL), RV_BAD_INPUT, "NULL");
   FAILS(valve, rv_valve_get_text(valve, "film.gap_mm", NULL, 10), RV_BAD_INPUT, "NULL");
   FAILS(valve, rv_valve_get_text(valve, "film.gapp_mm", text, sizeof text), RV_BAD_INPUT, "film.gap_mm");
@@ -181,21 +181,47 @@ static void test_wrong_settings(void) {
   rv_valve_free(&valve);
 }
 
+/* Numbers of the model behind the case; which method it was integrated with is one of them. */
+static void test_facts(void) {
+  rv_valve *valve;
+  double value = 0.0;
+  char text[40];
+  CHECK(rv_valve_new(&valve) == RV_OK);
+  FAILS(valve, rv_valve_fact(valve, "reynolds", &value), RV_BAD_INPUT, "run the valve first");
+  for (int explicit = 0; explicit < 2; explicit++) {
+    GOOD(valve, rv_valve_set_text(valve, "solver.method", explicit ? "explicit" : "implicit"));
+    GOOD(valve, rv_valve_run(valve));
+    GOOD(valve, rv_valve_fact(valve, "solver_method", &value));
+    CHECK(value == 1.0 + explicit);
+  }
+  GOOD(valve, rv_valve_fact(valve, "wet_frequency_hz", &value));
+  CHECK(fabs(value - 769.946) < 1e-3); /* the defaults', of results.nc */
+  GOOD(valve, rv_valve_fact(valve, "lowest_film_kpa", &value));
+  CHECK(isnan(value)); /* no film model */
+  CHECK(rv_fact_count() == 8);
+  CHECK(rv_fact_name(7, text, sizeof text) == RV_OK && strcmp(text, "solver_method") == 0);
+  CHECK(rv_fact_unit(0, text, sizeof text) == RV_OK && strcmp(text, "N m-1") == 0);
+  CHECK(rv_fact_name(8, text, sizeof text) == RV_BAD_INPUT && text[0] == '\0');
+  rv_valve_free(&valve);
+}
+
 static void test_wrong_order(void) {
   rv_valve *valve;
   double value = 0.0;
   int status = 0;
   size_t samples = 0;
   CHECK(rv_valve_new(&valve) == RV_OK);
-  FAILS(valve, rv_valve_measure(valve, "steady_mm", &value), RV_BAD_INPUT, "rv_valve_run must come first");
-  FAILS(valve, rv_valve_status(valve, &status), RV_BAD_INPUT, "rv_valve_run must come first");
-  FAILS(valve, rv_valve_trace_size(valve, &samples), RV_BAD_INPUT, "rv_valve_run must come first");
+  FAILS(valve, rv_valve_measure(valve, "steady_mm", &value), RV_BAD_INPUT, "run the valve first");
+  FAILS(valve, rv_valve_status(valve, &status), RV_BAD_INPUT, "run the valve first");
+  FAILS(valve, rv_valve_trace_size(valve, &samples), RV_BAD_INPUT, "run the valve first");
   GOOD(valve, rv_valve_run(valve));
-  FAILS(valve, rv_valve_measure(valve, "stedy_mm", &value), RV_BAD_INPUT, "no such measure");
+  FAILS(valve, rv_valve_measure(valve, "stedy_mm", &value), RV_BAD_INPUT, "no such name");
+  FAILS(valve, rv_valve_fact(valve, "reynold", &value), RV_BAD_INPUT, "'reynold': there is no such name");
+  FAILS(valve, rv_valve_fact(valve, "reynolds", NULL), RV_BAD_INPUT, "NULL");
   FAILS(valve, rv_valve_measure(valve, NULL, &value), RV_BAD_INPUT, "NULL");
   FAILS(valve, rv_valve_measure(valve, "steady_mm", NULL), RV_BAD_INPUT, "NULL");
   GOOD(valve, rv_valve_set_real(valve, "film.gap_mm", 0.04));
-  FAILS(valve, rv_valve_measure(valve, "steady_mm", &value), RV_BAD_INPUT, "rv_valve_run must come first");
+  FAILS(valve, rv_valve_measure(valve, "steady_mm", &value), RV_BAD_INPUT, "run the valve first");
   GOOD(valve, rv_valve_set_real(valve, "film.gap_mm", 0.0));
   FAILS(valve, rv_valve_run(valve), RV_DOMAIN, "the gap is 0");
   GOOD(valve, rv_valve_status(valve, &status));
@@ -297,6 +323,7 @@ int main(void) {
   test_texts_at_once();
   test_settings();
   test_wrong_settings();
+  test_facts();
   test_wrong_order();
   test_handles();
   test_decks();
