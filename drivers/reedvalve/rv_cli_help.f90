@@ -18,7 +18,7 @@ contains
       call say("")
       do i = 1, size(commands)
          if (commands(i)%help == "") cycle
-         usage_column = "reedvalve "//commands(i)%usage
+         usage_column = "reedvalve "//trim(commands(i)%usage)
          call say("  "//usage_column//" "//trim(commands(i)%help))
          if (commands(i)%name == "run") call say("  "//mpi_usage//"    "//mpi_help)
       end do

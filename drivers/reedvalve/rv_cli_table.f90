@@ -57,8 +57,8 @@ module rv_cli_table
       & word_type("DIR/run.log", "", "when and where")]
 
    character(len=*), parameter :: on_signals(2) = [character(len=112) :: &
-      & "Ctrl-C (SIGINT, SIGTERM, SIGUSR1) finishes the blocks under way; nothing finished is lost, and --resume goes", &
-      & "on, with any number of threads, ranks or slices."]
+      & "Ctrl-C (SIGINT, SIGTERM, SIGUSR1, SIGHUP) finishes the blocks under way; nothing finished is lost, and", &
+      & "--resume goes on, with any number of threads, ranks or slices."]
 
    type(word_type), parameter :: statuses(5) = [ &
       & word_type("0", "", "all cases fine"), &
