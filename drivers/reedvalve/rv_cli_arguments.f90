@@ -1,5 +1,6 @@
 !> The command line, taken apart and checked.
 module rv_cli_arguments
+   use rv_cli_table, only : command_type, commands, takes
    use rv_error, only : error_type, fail, rv_bad_input
    use rv_suggest, only : closest
    use rv_text, only : text_type
@@ -21,24 +22,6 @@ module rv_cli_arguments
 
    integer, parameter :: most_threads = 1024
    integer, parameter :: most_slices = 1000000
-
-   !> A command, the word for its operand, and the options it takes.
-   type :: command_type
-      character(len=8) :: name
-      character(len=8) :: operand
-      logical :: needs_operand
-      character(len=48) :: options
-   end type command_type
-
-   type(command_type), parameter :: commands(8) = [ &
-      & command_type("run", "DECK", .true., "-o --threads --slice --resume --force --quiet"), &
-      & command_type("merge", "DIR", .true., "--threads --quiet"), &
-      & command_type("check", "DECK", .true., "--quiet"), &
-      & command_type("cases", "DECK", .true., "--threads"), &
-      & command_type("modes", "DECK", .true., "--quiet"), &
-      & command_type("template", "MODEL", .false., ""), &
-      & command_type("help", "COMMAND", .false., ""), &
-      & command_type("version", "", .false., "")]
 
 contains
 
@@ -114,7 +97,7 @@ contains
       has_value = index(option, "=") > 0
       value = option(index(option//"=", "=") + 1:)
       if (has_value) option = option(:index(option, "=") - 1)
-      if (index(" "//trim(command%options)//" ", " "//option//" ") == 0) then
+      if (.not. takes(command, option)) then
          meant = closest(option, word_list(trim(command%options)))
          if (meant /= "") meant = "; did you mean '"//meant//"'?"
          call bad(error, "'"//trim(command%name)//"' has no option '"//option//"'"//meant)

@@ -1,6 +1,7 @@
 !> --help and --version.
 module rv_cli_help
    use rv_cli_output, only : say
+   use rv_cli_table, only : about, commands, files, mpi_help, mpi_usage, on_signals, options, statuses, word_type
    use rv_version, only : code_version, compiler_text, library_text
    implicit none
    private
@@ -9,31 +10,47 @@ module rv_cli_help
 contains
 
    subroutine print_help()
-      call say("reedvalve "//code_version//": how a cantilever reed valve opens and closes in oil.")
+      character(len=38) :: usage_column     ! so wide that meanings stand below each other
+      character(len=14) :: option_column
+      integer :: i
+
+      call say("reedvalve "//code_version//": "//about//".")
       call say("")
-      call say("  reedvalve template [MODEL] > my.nml    start a deck: every key with its unit, default and meaning")
-      call say("  reedvalve check DECK                   tell all that is wrong with a deck; run nothing")
-      call say("  reedvalve cases DECK                   tell what would run, and about how long")
-      call say("  reedvalve run DECK [options]           run all cases of a deck")
-      call say("  mpirun -n N reedvalve_mpi run DECK [options]    the same on MPI ranks")
-      call say("  reedvalve modes DECK                   plate modes in vacuum and oil; k_a and k_s that match the film")
-      call say("  reedvalve merge DIR                    write the results of a run whose cases are all finished")
+      do i = 1, size(commands)
+         if (commands(i)%help == "") cycle
+         usage_column = "reedvalve "//trim(commands(i)%usage)
+         call say("  "//usage_column//" "//trim(commands(i)%help))
+         if (commands(i)%name == "run") call say("  "//mpi_usage//"    "//mpi_help)
+      end do
       call say("")
       call say("Options of run (merge takes --threads and --quiet):")
-      call say("  -o DIR         folder for the results (default: the deck's name without .nml, here)")
-      call say("  --threads N    threads to use (default: all processors; of an MPI rank: 1)")
-      call say("  --slice I/N    run slice I of N only; slices may run at once, on many hosts; then: reedvalve merge DIR")
-      call say("  --resume       go on with a run that was stopped or killed")
-      call say("  --force        replace results that are there")
-      call say("  --quiet        print errors only")
+      do i = 1, size(options)
+         option_column = trim(options(i)%name)//" "//options(i)%value
+         call say("  "//option_column//" "//trim(options(i)%help))
+      end do
       call say("")
-      call say("Results: DIR/summary.csv (one row a case), DIR/results.nc (everything), DIR/run.log (when and where).")
-      call say("Ctrl-C (SIGINT, SIGTERM, SIGUSR1) finishes the blocks under way; nothing finished is lost, and --resume goes")
-      call say("on, with any number of threads, ranks or slices.")
+      call print_listed("Results: ", files, " (", "), ", ").")
+      call say(trim(on_signals(1)))
+      call say(trim(on_signals(2)))
       call say("")
-      call say("Exit status: 0 all cases fine; 1 some failed, or the run was stopped; 2 bad command line or deck;")
-      call say("             3 a file cannot be read or written; 4 a fault of reedvalve itself.")
+      call print_listed("Exit status: ", statuses(:3), " ", "; ", ";")
+      call print_listed("             ", statuses(4:), " ", "; ", ".")
    end subroutine print_help
+
+   !> One line: the words and what they mean, with what stands between and at the end.
+   subroutine print_listed(start, words, between, next, end)
+      character(len=*), intent(in) :: start, between, next, end
+      type(word_type), intent(in) :: words(:)
+      character(len=:), allocatable :: line
+      integer :: i
+
+      line = start
+      do i = 1, size(words)
+         if (i > 1) line = line//next
+         line = line//trim(words(i)%name)//between//trim(words(i)%help)
+      end do
+      call say(line//end)
+   end subroutine print_listed
 
    subroutine print_version()
       call say("reedvalve "//code_version)

@@ -90,7 +90,7 @@ contains
       do i = 1, n_warnings
          if (outcome%tally%warned(i) > 0) call complain("warning: "//to_text(outcome%tally%warned(i)) &
             & //" of "//to_text(outcome%tally%cases)//" cases are marked "//warning_name(i)//"; the first: " &
-            & //bare(outcome%tally%warning))
+            & //bare(outcome%tally%warning(i)%s))
       end do
       call say(cases_text(outcome))
       if (outcome%has_csv) then

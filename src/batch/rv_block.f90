@@ -15,16 +15,17 @@ module rv_block
    use rv_film_case, only : planform_cache, planform_key, n_planform, mesh_nodes
    use rv_keys, only : n_keys, from_si, to_si, model_film, model_film_table, key_film_mesh, key_run_model, &
       & key_run_start, key_run_t_end_ms, key_run_traces, key_run_trace_dt_ms, key_run_block_size, key_film_gap_mm, &
-      & key_film_vapour_pressure_kpa, key_fluid_viscosity_pa_s, key_pressure_kind, key_pressure_inlet_kpa, &
+      & key_film_vapour_pressure_kpa, key_fluid_viscosity_pa_s, key_reed_a_mm, key_reed_b_mm, key_reed_hole_diameter_mm, &
+      & key_pressure_kind, key_pressure_inlet_kpa, &
       & key_pressure_period_ms, key_pressure_transition_ms, key_pressure_file, key_pressure_event_ms, &
       & key_solver_rtol, key_solver_max_steps, key_solver_width
    use rv_lanes, only : lane_outcome, run_lanes
-   use rv_measures, only : n_measures
+   use rv_measures, only : n_measures, measure_steady, measure_overshoot, measure_undershoot
    use rv_number, only : tidy
    use rv_pressure, only : pressure_history
    use rv_sort, only : sorted_order
-   use rv_status, only : status_ok, status_bad_case, status_film_closed, warn_cavitation
-   use rv_text, only : text_type, to_text
+   use rv_status, only : status_ok, status_bad_case, status_film_closed, warn_cavitation, warn_large_slope, warn_not_open
+   use rv_text, only : text_type, time_text, to_text
    use rv_valve_case, only : new_case_lanes, new_history, settings_of
    use rv_valve_lanes, only : valve_lanes
    implicit none
@@ -58,6 +59,9 @@ module rv_block
    integer(i8), parameter :: fewest_film_cases = 16         !! of the model film, whose cases take some 0.1 s each
 
    integer(i8), parameter :: most_trace_bytes = 64*1024**2  !! of one block's traces in memory
+
+   !> Tip displacement over length beyond which a reed is marked: linear theory is then 1 to 3 % off, see the theory page.
+   real(wp), parameter :: steepest = 0.2_wp
 
 contains
 
@@ -143,8 +147,8 @@ contains
             cycle
          end if
          if (facts(i)%is_closed) then
-            call note_end(facts(i), status_film_closed, "at t = "//to_text(history%start, 6) &
-               & //" s: the film under the reed is closed over the whole land: the gap is 0", place(i), result)
+            call note_end(facts(i), status_film_closed, "at t = "//time_text(history%start) &
+               & //": the film under the reed is closed over the whole land: the gap is 0", place(i), result)
             cycle
          end if
          lane = lane + 1
@@ -172,12 +176,56 @@ contains
             end if
          end if
       end associate
+      call look_at_bend(value, outcome%measure(:, lane), facts)
+      if (outcome%status(lane) == status_ok) call look_at_steady(outcome%measure(measure_steady, lane), facts)
       traces = size(outcome%trace, 2)
       result%measure(:, place) = outcome%measure(:, lane)
       result%trace(:, :traces, place) = outcome%trace(:, :, lane)
       if (size(outcome%field) > 0) result%field(:, :, place) = outcome%field(:, :, lane)
       call note_end(facts, outcome%status(lane), outcome%message(lane)%s, place, result)
    end subroutine note_outcome
+
+   !> Warn of a reed that bends further than its theory goes.
+   subroutine look_at_bend(value, measure, facts)
+      real(wp), intent(in) :: value(n_keys)
+      real(wp), intent(in) :: measure(n_measures)
+      type(case_facts), intent(inout) :: facts
+      real(wp) :: length, largest
+
+      length = value(key_reed_a_mm) + value(key_reed_hole_diameter_mm) + value(key_reed_b_mm)
+      largest = 0.0_wp
+      call enlarge(measure(measure_steady))
+      call enlarge(measure(measure_steady) + measure(measure_overshoot))
+      call enlarge(measure(measure_undershoot))
+      if (largest <= steepest*length) return
+      facts%warnings = ior(facts%warnings, warn_large_slope)
+      call add_note(facts, "the tip moves by "//to_text(1.0e3_wp*largest, 4)//" mm, "//to_text(largest/length, 2) &
+         & //" of the reed's length: too steep for the theory of small slopes")
+
+   contains
+
+      !> A measure that is missing says nothing.
+      subroutine enlarge(u)
+         real(wp), intent(in) :: u
+
+         if (abs(u) > largest) largest = abs(u)
+      end subroutine enlarge
+
+   end subroutine look_at_bend
+
+   !> Say why the times are missing of a reed that the pressure does not hold open at the event.
+   subroutine look_at_steady(steady, facts)
+      real(wp), intent(in) :: steady   !! [m]; NaN: on its seat
+      type(case_facts), intent(inout) :: facts
+
+      if (steady > 0.0_wp) return
+      facts%warnings = ior(facts%warnings, warn_not_open)
+      if (ieee_is_nan(steady)) then
+         call add_note(facts, "at the closing event the pressure presses the reed onto its seat: no times are measured")
+      else
+         call add_note(facts, "at the closing event the pressure does not hold the reed open: no times are measured")
+      end if
+   end subroutine look_at_steady
 
    !> How a case ended, and what is known of it. A failure's reason stands before the warnings.
    subroutine note_end(facts, status, message, place, result)

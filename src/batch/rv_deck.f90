@@ -31,6 +31,7 @@ contains
       call start_deck(path, draft%deck)
       call read_text_file(path, most_bytes, draft%deck%text, error)
       if (allocated(error)) then
+         call add_hint(path, error)
          if (error%code /= rv_bad_input) return
          call draft%faults%add(path, 0, 0, error%message)
          deallocate(error)
@@ -43,6 +44,24 @@ contains
       deck = draft%deck
       faults = draft%faults
    end subroutine read_deck
+
+   !> The deck's name without its end, or the folder of its results, is easily given for the deck.
+   subroutine add_hint(path, error)
+      character(len=*), intent(in) :: path
+      type(error_type), intent(inout) :: error
+      character(len=:), allocatable :: deck
+      logical :: exists
+
+      deck = path//".nml"
+      if (len(path) > 1) deck = path(:verify(path, "/", back=.true.))//".nml"
+      inquire(file=deck, exist=exists)
+      if (exists) then
+         error%message = error%message//"; did you mean '"//deck//"'?"
+         return
+      end if
+      inquire(file=path//"/results.nc", exist=exists)
+      if (exists) error%message = "'"//path//"' is a folder with results, not a deck"
+   end subroutine add_hint
 
    !> Names and empty lists.
    subroutine start_deck(path, deck)

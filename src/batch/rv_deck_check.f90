@@ -77,23 +77,34 @@ contains
    subroutine check_fields(draft)
       type(draft_type), intent(inout) :: draft
       integer, parameter :: planform(4) = [key_reed_a_mm, key_reed_b_mm, key_reed_hole_diameter_mm, key_reed_width_mm]
-      integer :: i
+      real(wp) :: start, finish
+      integer :: i, outside
 
       if (draft%is_bad(key_film_fields_ms) .or. size(draft%deck%field_times()) == 0) return
       do i = 1, size(planform)
          if (varies(draft, planform(i))) call tell_at(draft, key_film_fields_ms, "film.fields_ms needs one planform;" &
             & //" store the fields of a sweep over "//full_name(planform(i))//" in runs of their own")
       end do
+      if (any(draft%is_bad([key_run_t_end_ms, key_pressure_file]))) return
+      call draft%deck%time_span(start, finish)
+      outside = count(draft%deck%field_times() < start .or. draft%deck%field_times() > finish)
+      if (outside > 0) call warn_at(draft, key_film_fields_ms, "film.fields_ms: "//to_text(outside) &
+         & //" of its times outside the run, "//range_in_ms(start, finish)//": no field is stored for them")
    end subroutine check_fields
 
    !> A trace needs its file, and the event that nothing else tells.
    subroutine check_files(draft)
       type(draft_type), intent(inout) :: draft
 
-      if (.not. draft%deck%given(key_pressure_file)) call tell_at(draft, key_pressure_kind, &
-         & "pressure.kind = 'trace' needs pressure.file, the CSV file of the trace")
-      if (.not. draft%deck%given(key_pressure_event_ms)) call tell_at(draft, key_pressure_kind, &
-         & "pressure.kind = 'trace' needs pressure.event_ms, the time when closing starts")
+      if (.not. draft%deck%given(key_pressure_file)) then
+         call tell_at(draft, key_pressure_kind, "pressure.kind = 'trace' needs pressure.file, the CSV file of the trace")
+         draft%is_bad(key_pressure_file) = .true.
+      end if
+      if (.not. draft%deck%given(key_pressure_event_ms)) then
+         call tell_at(draft, key_pressure_kind, &
+            & "pressure.kind = 'trace' needs pressure.event_ms, the time when closing starts")
+         draft%is_bad(key_pressure_event_ms) = .true.
+      end if
       call read_traces(draft)
    end subroutine check_files
 

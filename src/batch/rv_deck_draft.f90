@@ -7,7 +7,7 @@ module rv_deck_draft
    use rv_deck_reader, only : word_type
    use rv_deck_scan, only : deck_scan, entry_type, group_type
    use rv_keys, only : keys, n_rows, find_key, full_name
-   use rv_key_value, only : read_value, odd_value, names_of_group, suggestion
+   use rv_key_value, only : read_value, odd_value, names_of_group, suggestion, unit_advice
    use rv_cases, only : deck_type, axis_type, mention_type
    implicit none
    private
@@ -30,6 +30,7 @@ module rv_deck_draft
       procedure :: value_word
       procedure :: shown
       procedure :: take_value
+      procedure :: tell_surplus
       procedure :: add_axis
    end type draft_type
 
@@ -213,6 +214,24 @@ contains
          call self%warn(word, full_name(key)//" = "//self%shown(word)//": "//odd_value(key, value))
       end if
    end subroutine take_value
+
+   !> Tell of an entry that has more than one value where one of `key` is due: a unit in place of the second, or `advice`.
+   subroutine tell_surplus(self, e, key, advice)
+      class(draft_type), intent(inout) :: self
+      integer, intent(in) :: e, key
+      character(len=*), intent(in) :: advice
+      character(len=:), allocatable :: text
+      type(word_type) :: second
+
+      second = self%value_word(e, 2)
+      text = full_name(self%key(e))//": one value is due, "//to_text(self%value_count(e))//" are given"
+      if (second%quote == " " .and. scan(self%scan%reader%word_text(second), "+-.0123456789") /= 1) then
+         text = text//unit_advice(key)
+      else
+         text = text//advice
+      end if
+      call self%tell(second, text)
+   end subroutine tell_surplus
 
    !> One more axis, which runs faster than those before it.
    subroutine add_axis(self, axis)

@@ -2,7 +2,6 @@
 module rv_deck_settings
    use, intrinsic :: ieee_arithmetic, only : ieee_is_nan
    use rv_kinds, only : wp
-   use rv_text, only : to_text
    use rv_deck_reader, only : word_type
    use rv_deck_draft, only : draft_type, name_trace
    use rv_keys, only : keys, n_keys, full_name, default_value, text_key, real_key, key_run_title, key_run_model, &
@@ -67,8 +66,7 @@ contains
       draft%is_bad(key) = n == 0
       if (n > 1 .and. .not. keys(key)%list) then
          draft%is_bad(key) = .true.
-         call draft%tell(draft%value_word(e, 2), full_name(key)//": one value is due, "//to_text(n)//" are given" &
-            & //list_advice(draft, e, key))
+         call draft%tell_surplus(e, key, list_advice(draft, e, key))
          return
       end if
       axis%key = key

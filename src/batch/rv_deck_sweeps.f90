@@ -231,9 +231,7 @@ contains
       value = 0.0_wp
       is_good = draft%value_count(e) == 1
       if (is_good) call draft%take_value(e, 1, key, value, is_good)
-      if (draft%value_count(e) < 2) return
-      call draft%tell(draft%value_word(e, 2), full_name(draft%key(e))//": one value is due, " &
-         & //to_text(draft%value_count(e))//" are given")
+      if (draft%value_count(e) > 1) call draft%tell_surplus(e, key, "")
    end subroutine read_one
 
    !> `n` numbers from `from` to `to`, equal differences or equal ratios apart, rounded to what a person would write.

@@ -1,7 +1,7 @@
 !> One value of a key from its word in a deck or a design file, and what is wrong or odd about it.
 module rv_key_value
    use rv_kinds, only : wp, i8
-   use rv_text, only : text_type, to_text
+   use rv_text, only : lower, text_type, to_text
    use rv_number, only : parse_real, parse_integer, parse_logical
    use rv_text_builder, only : append_text
    use rv_suggest, only : closest
@@ -9,7 +9,7 @@ module rv_key_value
       & choice_count, choice_name, choice_index, full_name, key_film_gap_mm, key_solver_width
    implicit none
    private
-   public :: read_value, odd_value, range_text, unknown_choice, names_of_group, names_of_keys, suggestion
+   public :: read_value, odd_value, range_text, unknown_choice, names_of_group, names_of_keys, suggestion, unit_advice
 
    real(wp), parameter :: smallest_gap_mm = 1.0e-6_wp   !! of a film that is not closed: a few molecules
 
@@ -59,7 +59,7 @@ contains
          value = real(number, wp)
       case default
          call parse_real(word, value, trouble)
-         if (trouble == "not a number") trouble = trouble//unit_advice(key, word)
+         if (trouble == "not a number" .and. has_unit(key, word)) trouble = trouble//unit_advice(key)
       end select
       if (trouble == "") trouble = range_trouble(key, value)
       if (trouble == "" .and. key == key_solver_width .and. popcnt(nint(value)) /= 1) trouble = "must be a power of two"
@@ -69,17 +69,20 @@ contains
       value = to_si(key, value)
    end subroutine read_bare_value
 
-   !> A number with its unit behind it is a common slip.
-   function unit_advice(key, word) result(advice)
+   !> A number with its unit behind it, or that unit behind a blank: a common slip.
+   logical function has_unit(key, word)
       integer, intent(in) :: key
       character(len=*), intent(in) :: word
+
+      has_unit = verify(word, "+-.0123456789") > 1 .or. lower(word) == lower(trim(keys(key)%unit))
+   end function has_unit
+
+   function unit_advice(key) result(advice)
+      integer, intent(in) :: key
       character(len=:), allocatable :: advice
-      integer :: letters
 
       advice = ""
-      letters = verify(word, "+-.0123456789")
-      if (letters < 2 .or. keys(key)%unit == "") return
-      advice = "; its unit is "//trim(keys(key)%unit)//", write the number alone"
+      if (keys(key)%unit /= "") advice = "; its unit is "//trim(keys(key)%unit)//", write the number alone"
    end function unit_advice
 
    !> Outside the allowed range?

@@ -34,21 +34,27 @@ static void note_signal(int number)
    errno = kept;
 }
 
-/* SIGINT, SIGTERM and SIGUSR1 are noted once; a second one has its usual effect, so nobody is locked in. Schedulers
- * announce the end of a job's time with SIGUSR1, and mpirun passes that one on where it makes an end of the others.
+/* SIGINT, SIGTERM, SIGUSR1 and SIGHUP are noted once; a second one has its usual effect, so nobody is locked in.
+ * Schedulers announce the end of a job's time with SIGUSR1, and mpirun passes that one on where it makes an end of the
+ * others. SIGHUP comes when a connection is lost; under nohup it is ignored, and stays so.
  * `notice` is what the program wants to be told at once on standard error; it may be empty. */
 int rv_posix_catch_signals(const char *notice)
 {
-   struct sigaction action;
+   static const int stopping[] = {SIGINT, SIGTERM, SIGUSR1, SIGHUP};
+   struct sigaction action, before;
 
    snprintf(signal_notice, sizeof signal_notice, "%s", notice);
    memset(&action, 0, sizeof action);
    action.sa_handler = note_signal;
    action.sa_flags = (int)(SA_RESTART | SA_RESETHAND);
    sigemptyset(&action.sa_mask);
-   if (sigaction(SIGINT, &action, NULL) != 0) return errno;
-   if (sigaction(SIGTERM, &action, NULL) != 0) return errno;
-   if (sigaction(SIGUSR1, &action, NULL) != 0) return errno;
+   for (size_t i = 0; i < sizeof stopping / sizeof *stopping; i++) {
+      if (stopping[i] == SIGHUP) {
+         if (sigaction(SIGHUP, NULL, &before) != 0) return errno;
+         if (before.sa_handler == SIG_IGN) continue;
+      }
+      if (sigaction(stopping[i], &action, NULL) != 0) return errno;
+   }
    return 0;
 }
 

@@ -281,7 +281,7 @@ contains
       fd = -1
    end subroutine unlock_file
 
-   !> From now on SIGINT, SIGTERM and SIGUSR1 are only noted, once; for a program, not for a library's caller.
+   !> From now on SIGINT, SIGTERM, SIGUSR1 and SIGHUP are only noted, once; for a program, not for a library's caller.
    subroutine catch_signals(notice, error)
       character(len=*), intent(in) :: notice      !! written to standard error when one comes; may be empty
       type(error_type), allocatable, intent(out) :: error

@@ -3,6 +3,7 @@
 !>     results.nc  summary.csv  run.log      what a run leaves
 !>     run.lock                              while one works here, or several slices; says who
 !>     parts/manifest  parts/block_*.part    finished blocks of a run whose results are not in place yet
+!>     parts/slice_*.lock                    while a slice is at work: nobody else runs that one
 !>     parts.old/                            parts being removed
 module rv_results_folder
    use, intrinsic :: iso_c_binding, only : c_int
@@ -28,6 +29,7 @@ module rv_results_folder
    character(len=*), parameter :: lock_name = "run.lock"
    character(len=*), parameter :: parts_name = "parts"
    character(len=*), parameter :: old_parts_name = "parts.old"
+   character(len=*), parameter :: slice_prefix = "slice_", slice_suffix = ".lock"
 
    !> A folder in use by this process: open, then close on every path.
    type :: results_folder
@@ -36,6 +38,8 @@ module rv_results_folder
       logical :: has_lock = .true.             !! false: this file system has no locks
       logical, private :: is_shared = .false.  !! other slices may work here at the same time
       integer(c_int), private :: lock = -1
+      integer(c_int), private :: slice_lock = -1
+      character(len=:), allocatable, private :: slice_name   !! of the lock's file
       logical, private :: made_here = .false.
    contains
       procedure :: open => open_folder
@@ -46,6 +50,7 @@ module rv_results_folder
       procedure :: has_parts
       procedure :: find_finished
       procedure :: make_parts
+      procedure :: take_slice
       procedure :: drop_unfinished
       procedure :: discard_parts
       procedure, private :: find_or_make
@@ -86,6 +91,7 @@ contains
       class(results_folder), intent(inout) :: self
       type(error_type), allocatable :: ignored
 
+      if (allocated(self%slice_name)) call unlock_file(self%slice_name, self%slice_lock)
       call unlock_file(self%file(lock_name), self%lock)
       if (self%made_here) call remove_folder(self%path, ignored)
    end subroutine close_folder
@@ -159,7 +165,27 @@ contains
       call sync_folder(self%path, error)
    end subroutine make_parts
 
-   !> Remove what killed workers left half-written; only for who is alone here.
+   !> Keep others from running the same slice at the same time; its parts' folder must be there.
+   subroutine take_slice(self, slice, slices, error)
+      class(results_folder), intent(inout) :: self
+      integer, intent(in) :: slice, slices
+      type(error_type), allocatable, intent(out) :: error
+      character(len=:), allocatable :: holder
+
+      self%slice_name = self%parts//"/"//slice_prefix//to_text(slice)//"_of_"//to_text(slices)//slice_suffix
+      call lock_here(self%slice_name, .false., self%slice_lock, self%has_lock, holder, error)
+      if (allocated(error) .or. holder == "") return
+      call fail(error, rv_io, "slice "//to_text(slice)//"/"//to_text(slices)//" is at work in '"//self%path &
+         & //"' already ("//holder//"): wait until it ends")
+   end subroutine take_slice
+
+   pure logical function is_slice_lock(name)
+      character(len=*), intent(in) :: name
+
+      is_slice_lock = index(name, slice_prefix) == 1 .and. index(name, slice_suffix, back=.true.) == len(name) - 4
+   end function is_slice_lock
+
+   !> Remove what killed workers left: half-written parts, locks of slices; only for who is alone here.
    subroutine drop_unfinished(self, error)
       class(results_folder), intent(in) :: self
       type(error_type), allocatable, intent(out) :: error
@@ -169,7 +195,7 @@ contains
       call list_folder(self%parts, name, error)
       do i = 1, size(name)
          if (allocated(error)) return
-         if (is_unfinished_name(name(i)%s)) call remove_file(self%parts//"/"//name(i)%s, error)
+         if (is_unfinished_name(name(i)%s) .or. is_slice_lock(name(i)%s)) call remove_file(self%parts//"/"//name(i)%s, error)
       end do
    end subroutine drop_unfinished
 
@@ -227,21 +253,36 @@ contains
    subroutine take_lock(self, error)
       class(results_folder), intent(inout) :: self
       type(error_type), allocatable, intent(out) :: error
-      type(error_type), allocatable :: ignored
       character(len=:), allocatable :: holder
+
+      call lock_here(self%file(lock_name), self%is_shared, self%lock, self%has_lock, holder, error)
+      if (allocated(error) .or. holder == "") return
+      call fail(error, rv_io, "another run is at work in '"//self%path//"' ("//holder &
+         & //"): wait until it ends, or choose another folder")
+   end subroutine take_lock
+
+   !> Lock a file in this process's name, or find who holds it.
+   subroutine lock_here(path, shared, lock, has_lock, holder, error)
+      character(len=*), intent(in) :: path
+      logical, intent(in) :: shared
+      integer(c_int), intent(out) :: lock
+      logical, intent(out) :: has_lock                     !! false: this file system has no locks
+      character(len=:), allocatable, intent(out) :: holder !! empty: the lock is ours
+      type(error_type), allocatable, intent(out) :: error
+      type(error_type), allocatable :: ignored
       integer :: state
       logical :: found
 
-      call lock_file(self%file(lock_name), "process "//to_text(process_number())//" on "//host_name() &
-         & //" since "//utc_date()//new_line("a"), self%lock, state, error, shared=self%is_shared)
-      if (allocated(error)) return
-      self%has_lock = state /= lock_none
-      if (state /= lock_held) return
-      self%lock = -1
-      call read_whole_file(self%file(lock_name), holder, found, ignored)
-      call fail(error, rv_io, "another run is at work in '"//self%path//"' ("//last_line(holder) &
-         & //"): wait until it ends, or choose another folder")
-   end subroutine take_lock
+      holder = ""
+      call lock_file(path, "process "//to_text(process_number())//" on "//host_name() &
+         & //" since "//utc_date()//new_line("a"), lock, state, error, shared=shared)
+      has_lock = state /= lock_none
+      if (allocated(error) .or. state /= lock_held) return
+      lock = -1
+      call read_whole_file(path, holder, found, ignored)
+      holder = last_line(holder)
+      if (holder == "") holder = "of unknown name"
+   end subroutine lock_here
 
    !> Remove a folder with the parts in it; harmless when there is none. What is not ours stays, and so does the folder.
    subroutine empty_folder(path, error)
@@ -256,7 +297,7 @@ contains
       call list_folder(path, name, error)
       if (allocated(error)) return
       do i = 1, size(name)
-         if (.not. (is_part_name(name(i)%s) .or. name(i)%s == manifest_name &
+         if (.not. (is_part_name(name(i)%s) .or. name(i)%s == manifest_name .or. is_slice_lock(name(i)%s) &
             & .or. index(name(i)%s, manifest_name//new_suffix) == 1)) cycle
          call remove_file(path//"/"//name(i)%s, error)
          if (allocated(error)) return

@@ -23,7 +23,7 @@ contains
 
    !> Look at the folder, refuse or make way, and leave the manifest in it.
    subroutine prepare_folder(folder, options, plan, outcome, error)
-      type(results_folder), intent(in) :: folder
+      type(results_folder), intent(inout) :: folder
       type(run_options), intent(in) :: options
       type(plan_type), intent(inout) :: plan
       type(run_outcome), intent(inout) :: outcome
@@ -47,6 +47,8 @@ contains
       plan%is_new = (options%force .or. .not. parts) .and. .not. options%is_slice()
       call folder%make_parts(error)
       if (.not. allocated(error)) call leave_manifest(folder, options, plan, error)
+      if (allocated(error) .or. .not. options%is_slice()) return
+      call folder%take_slice(options%slice, options%slices, error)
    end subroutine prepare_folder
 
    !> There is an unfinished run: go on with it only if that was asked for, or if it is other slices' alone.

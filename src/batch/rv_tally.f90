@@ -17,7 +17,7 @@ module rv_tally
       integer(i8) :: warned(n_warnings) = 0
       type(text_type) :: failure(most_named)   !! the first failures: "case 17 (film_closed): ..."
       integer :: named = 0                     !! how many of them there are
-      character(len=:), allocatable :: warning !! the first message of a case with a warning that did not fail
+      type(text_type) :: warning(n_warnings)   !! of each warning the message of its first case
    contains
       procedure :: add
    end type tally_type
@@ -34,13 +34,11 @@ contains
          self%cases = self%cases + 1
          self%by_status(result%status(i)) = self%by_status(result%status(i)) + 1
          do bit = 1, n_warnings
-            if (btest(result%warnings(i), bit - 1)) self%warned(bit) = self%warned(bit) + 1
+            if (.not. btest(result%warnings(i), bit - 1)) cycle
+            self%warned(bit) = self%warned(bit) + 1
+            if (self%warned(bit) == 1) self%warning(bit)%s = result%message(i)%s
          end do
-         if (result%status(i) /= status_ok) then
-            call name_failure(self, result, i)
-         else if (result%warnings(i) /= 0 .and. .not. allocated(self%warning)) then
-            self%warning = result%message(i)%s
-         end if
+         if (result%status(i) /= status_ok) call name_failure(self, result, i)
       end do
    end subroutine add
 

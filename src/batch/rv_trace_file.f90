@@ -207,8 +207,10 @@ contains
          call parse_real(reader%word(column), value, trouble)
          sample(quantity) = value*map%multiply(quantity)/map%divide(quantity)
          limit = merge(latest, highest, quantity == is_time)
-         if (trouble == "" .and. abs(sample(quantity)) > limit) trouble = "beyond the limit of " &
-            & //to_text(limit)//merge(" s ", " Pa", quantity == is_time)
+         if (trouble == "" .and. abs(sample(quantity)) > limit) then
+            trouble = "beyond the limit of "//to_text(1.0e-3_wp*limit)//" kPa"
+            if (quantity == is_time) trouble = "beyond the limit of "//to_text(1.0e3_wp*limit)//" ms"
+         end if
          if (trouble == "") cycle
          call faults%add(path, reader%line, reader%field(column)%column, trim(map%name(quantity))//" = '" &
             & //clip(reader%word(column), 40)//"': "//trim(trouble))

@@ -16,7 +16,7 @@ module rv_valve_case
    use rv_lumped, only : lumped_lanes, lumped_valve, new_lumped_lanes, squeeze_coefficient
    use rv_pressure, only : pressure_history, square_wave, new_square_wave, pressure_trace, new_pressure_trace
    use rv_reed, only : reed_type, new_reed
-   use rv_text, only : to_text
+   use rv_text, only : time_text, to_text
    use rv_trace_file, only : trace_data
    use rv_valve_lanes, only : valve_lanes
    implicit none
@@ -157,8 +157,8 @@ contains
       end if
       if (allocated(error)) return
       if (.not. value(key_run_t_end_ms) > history%start) then
-         call fail(error, rv_bad_input, "the run ends at "//to_text(value(key_run_t_end_ms), 6) &
-            & //" s, before its pressure history starts at "//to_text(history%start, 6)//" s")
+         call fail(error, rv_bad_input, "the run ends at "//time_text(value(key_run_t_end_ms)) &
+            & //", before its pressure history starts at "//time_text(history%start))
       end if
    end subroutine new_history
 

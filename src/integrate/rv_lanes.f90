@@ -17,7 +17,7 @@ module rv_lanes
    use rv_status, only : status_ok, status_step_too_small, status_film_closed, status_not_finite, &
       & status_too_many_steps, status_no_convergence
    use rv_step, only : step_type, new_step
-   use rv_text, only : text_type, to_text
+   use rv_text, only : text_type, time_text, to_text
    use rv_valve_lanes, only : valve_lanes
    implicit none
    private
@@ -158,8 +158,8 @@ contains
       do i = 1, problem%lanes%width
          if (found(i)) cycle
          outcome%status(i) = status_film_closed
-         outcome%message(i)%s = "at t = "//to_text(problem%history%start, 6) &
-            & //" s: no static equilibrium to start from, the pressure closes the film under the reed"
+         outcome%message(i)%s = "at t = "//time_text(problem%history%start) &
+            & //": no static equilibrium to start from, the pressure closes the film under the reed"
          call problem%lanes%silence(i)
          q(i, :) = 0.0_wp
       end do
@@ -227,7 +227,7 @@ contains
             if (outcome%steps < settings%max_steps) cycle
             if (k > size(stops)) return
             call fail_rest(outcome, status_too_many_steps, &
-               & "after "//to_text(outcome%steps)//" steps at t = "//to_text(t, 6)//" s: &solver max_steps reached")
+               & "after "//to_text(outcome%steps)//" steps at t = "//time_text(t)//": &solver max_steps reached")
             return
          end if
          short = 0
@@ -235,7 +235,7 @@ contains
          if (all(outcome%status /= status_ok)) return
          if (rv_arkode_restart(integrator, step%t1, y) < 0) then
             call get_arkode_message(integrator, reason)
-            call fail_rest(outcome, status_no_convergence, "at t = "//to_text(step%t1, 6)//" s: "//reason)
+            call fail_rest(outcome, status_no_convergence, "at t = "//time_text(step%t1)//": "//reason)
             return
          end if
       end do
@@ -279,11 +279,11 @@ contains
          end if
       end if
       if (outcome%status(lane) /= status_ok) then   ! no live lane is to blame: nothing can be saved
-         call fail_rest(outcome, status, "at t = "//to_text(t, 6)//" s: "//reason)
+         call fail_rest(outcome, status, "at t = "//time_text(t)//": "//reason)
          return
       end if
       outcome%status(lane) = status
-      outcome%message(lane)%s = "at t = "//to_text(t, 6)//" s: "//reason
+      outcome%message(lane)%s = "at t = "//time_text(t)//": "//reason
       call problem%lanes%silence(lane)
       problem%failed = 0
       problem%hindrance = 0

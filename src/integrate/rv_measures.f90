@@ -13,9 +13,10 @@ module rv_measures
    use rv_valve_lanes, only : valve_lanes, most_dofs
    implicit none
    private
-   public :: measure_lanes, new_measure_lanes, n_measures
+   public :: measure_lanes, new_measure_lanes, n_measures, measure_steady, measure_overshoot, measure_undershoot
 
    integer, parameter :: n_measures = 9  !! steady, rise, opening, overshoot, fall, closing, zero, undershoot, peak squeeze
+   integer, parameter :: measure_steady = 1, measure_overshoot = 4, measure_undershoot = 8
 
    integer, parameter :: n_up = 3, n_down = 4
    real(wp), parameter :: up_level(n_up) = [0.10_wp, 0.90_wp, 0.98_wp]              !! while opening [-]

@@ -5,7 +5,7 @@ module rv_status
    public :: status_ok, status_step_too_small, status_film_closed, status_not_finite
    public :: status_too_many_steps, status_no_convergence, status_bad_case
    public :: n_statuses, status_name
-   public :: warn_reynolds, warn_cavitation, warn_wide_gap, n_warnings, warning_name
+   public :: warn_reynolds, warn_cavitation, warn_wide_gap, warn_large_slope, warn_not_open, n_warnings, warning_name
 
    integer, parameter :: status_ok = 0
    integer, parameter :: status_step_too_small = 1  !! the error test cannot be met
@@ -19,7 +19,9 @@ module rv_status
    integer, parameter :: warn_reynolds = 1    !! Re outside the range of the hydrodynamic function
    integer, parameter :: warn_cavitation = 2  !! the film's pressure falls below the vapour pressure
    integer, parameter :: warn_wide_gap = 4    !! lubrication theory overstates the land's load
-   integer, parameter :: n_warnings = 3       !! warnings are bits: 1, 2, 4, ...
+   integer, parameter :: warn_large_slope = 8 !! the reed bends further than theories of small slopes go
+   integer, parameter :: warn_not_open = 16   !! the reed is not open at the event: no times are measured
+   integer, parameter :: n_warnings = 5       !! warnings are bits: 1, 2, 4, ...
 
 contains
 
@@ -38,7 +40,8 @@ contains
    pure function warning_name(bit) result(name)
       integer, intent(in) :: bit      !! 1 to n_warnings, the flag's value is 2**(bit - 1)
       character(len=:), allocatable :: name
-      character(len=14), parameter :: names(n_warnings) = [character(len=14) :: "reynolds_range", "cavitation", "wide_gap"]
+      character(len=14), parameter :: names(n_warnings) = [character(len=14) :: "reynolds_range", "cavitation", "wide_gap", &
+         & "large_slope", "not_open"]
 
       name = "unknown"
       if (bit >= 1 .and. bit <= n_warnings) name = trim(names(bit))

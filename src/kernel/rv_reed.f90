@@ -50,8 +50,8 @@ contains
          return
       end if
       if (hole_diameter > width) then
-         call fail(error, rv_bad_input, "the hole (diameter "//to_text(hole_diameter)// &
-            & " m) is wider than the reed ("//to_text(width)//" m)")
+         call fail(error, rv_bad_input, "the hole (diameter "//to_text(1.0e3_wp*hole_diameter, 6)// &
+            & " mm) is wider than the reed ("//to_text(1.0e3_wp*width, 6)//" mm)")
          return
       end if
 

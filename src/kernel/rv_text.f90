@@ -7,7 +7,7 @@ module rv_text
    use rv_kinds, only : wp, i8
    implicit none
    private
-   public :: text_type, to_text, lower
+   public :: text_type, to_text, time_text, lower
 
    !> One string in a list of strings of different lengths.
    type :: text_type
@@ -56,6 +56,14 @@ contains
 
       text = whole(i)
    end function long_to_text
+
+   !> An instant as decks and results give it: "22.3235 ms".
+   pure function time_text(t) result(text)
+      real(wp), intent(in) :: t   !! [s]
+      character(len=len_trim(rounded(1.0e3_wp*t, 6), i8) + 3) :: text
+
+      text = trim(rounded(1.0e3_wp*t, 6))//" ms"
+   end function time_text
 
    !> ASCII letters in lower case.
    pure function lower(text) result(low)

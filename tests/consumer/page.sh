@@ -16,7 +16,15 @@ awk -v heading="## $heading" '
    inside {print}' "$page" | sed "s|\$HOME/reedvalve|$prefix|g" >block.sh
 [ -s block.sh ] || { echo "$page has no commands below '$heading'" >&2; exit 1; }
 cat block.sh
-[ -n "$expected" ] || exec sh -eu block.sh
+if grep -q '^module ' block.sh; then
+   modules=/usr/share/modules/init/sh
+   [ -r $modules ] || { echo "skipped: Environment Modules are not installed"; exit 77; }
+   . $modules
+fi
+if [ -z "$expected" ]; then
+   . ./block.sh
+   exit
+fi
 
 sed '$d' block.sh >build.sh
 program=$(tail -n 1 block.sh)

@@ -4,7 +4,8 @@ program test_cases
    use rv_kinds, only : wp, i8
    use rv_deck, only : deck_type
    use rv_block, only : block_result, run_block
-   use rv_status, only : status_ok, status_bad_case, status_film_closed, status_too_many_steps, warn_reynolds
+   use rv_status, only : status_ok, status_bad_case, status_film_closed, status_too_many_steps, warn_reynolds, &
+      & warn_large_slope, warn_not_open
    use rv_text, only : to_text
    use check, only : suite_type
    use block_trial, only : run_all, read_good, agree, agreement, same_bits, steady, rise, overshoot, fall, closing, &
@@ -19,6 +20,8 @@ program test_cases
    call case_on_its_seat()
    call step_limit()
    call reynolds_warning()
+   call slope_warning()
+   call shut_warning()
    call start_and_film()
    call first_cycle()
    call later_event()
@@ -105,7 +108,7 @@ contains
       integer, parameter :: open_gap(12) = [1, 3, 4, 5, 7, 8, 9, 11, 12, 13, 15, 16]   !! of 16, whose second of four is shut
       character(len=*), parameter :: models = "&run model = 'squeeze', 'film', 'film_table', 'traditional'", &
          & gaps = "~&solver width = 2 /~&sweep key = 'film.gap_mm', values = 0.05, ", &
-         & where = "at t = 0 s: the film under the reed is closed over the whole land: the gap is 0"
+         & where = "at t = 0 ms: the film under the reed is closed over the whole land: the gap is 0"
       character(len=*), parameter :: more(3) = [character(len=96) :: " /~&film modes = 1 /", &
          & ", start = 'equilibrium' /~&film modes = 1 /", &
          & ", traces = .true., trace_dt_ms = 10 /~&film modes = 1, edge_elongation = 0.65, fields_ms = 20 /"]
@@ -135,7 +138,7 @@ contains
       call run_all(suite, tiny//"&sweep key = 'film.k_s', values = 0.0075, 1e-70, 0.02 /", r)
       call run_all(suite, tiny//"&sweep key = 'film.k_s', values = 0.0075, 0.02 /", others)
       call suite%equal("case on its seat: status", r%status(2), status_film_closed)
-      call suite%true("its message: "//r%message(2)%s, index(r%message(2)%s, "at t = 0.02") == 1)
+      call suite%true("its message: "//r%message(2)%s, index(r%message(2)%s, "at t = 20.") == 1)
       call suite%close("it goes as far below rest as the gap lets it [mm]", 1.0e3_wp*r%measure(undershoot, 2), 0.001_wp, &
          & 1.0e-3_wp, 0.0_wp)
       call suite%true("its history ends there", all([(ieee_is_nan(r%trace(i, 1, 2)) .eqv. i > 42, i=1, 81)]))
@@ -171,6 +174,43 @@ contains
       call suite%true("a failure's reason goes before the warning", index(r%message(1)%s, "after 20 steps") == 1)
       call suite%equal("whose flag stays", r%warnings(1), warn_reynolds)
    end subroutine reynolds_warning
+
+   !> A thin reed bends beyond small slopes; the limit is at 0.2 of the length, 1.5 mm, whatever the model.
+   subroutine slope_warning()
+      type(block_result) :: r
+      real(wp) :: largest(2)
+
+      call run_all(suite, "&run start = 'equilibrium' /~&pressure transition_ms = 19.8 /~" &
+         & //"&sweep key = 'pressure.inlet_kpa', values = 319, 323 /", r)
+      largest = 1.0e3_wp*(r%measure(steady, :) + r%measure(overshoot, :))
+      call suite%true("either side of the limit", largest(1) > 1.48_wp .and. largest(1) < 1.5_wp .and. largest(2) > 1.5_wp &
+         & .and. largest(2) < 1.52_wp)
+      call suite%true("the second is flagged, both are fine", all(r%warnings == [0, warn_large_slope]) &
+         & .and. all(r%status == status_ok))
+      call suite%text("what is said of it", r%message(2)%s, "warning: the tip moves by "//to_text(largest(2), 4) &
+         & //" mm, 0.2 of the reed's length: too steep for the theory of small slopes")
+      call run_all(suite, "&run model = 'traditional' /~&pressure inlet_kpa = 250 /~&hydro load = 'none' /", r)
+      call suite%true("an overshoot counts", r%measure(steady, 1) < 1.4e-3_wp .and. r%warnings(1) == warn_large_slope)
+      call run_all(suite, "&run model = 'film_table', 'film' /~&film modes = 1 /~&reed thickness_mm = 0.02 /", r)
+      call suite%true("film models too: "//r%message(1)%s, all(iand(r%warnings, warn_large_slope) > 0))
+   end subroutine slope_warning
+
+   !> A pressure that presses a lumped reed onto its seat, or does not open it: the empty measures have a reason.
+   subroutine shut_warning()
+      type(block_result) :: r
+
+      call run_all(suite, "&run model = 'squeeze', 'traditional' /~" &
+         & //"&sweep key = 'pressure.inlet_kpa', values = -20, 0, 20 /", r)
+      call suite%true("all are fine", all(r%status == status_ok))
+      call suite%true("all but the last are flagged", all(r%warnings == warn_not_open*[1, 1, 0, 1, 1, 0]))
+      call suite%text("on its seat", r%message(1)%s, &
+         & "warning: at the closing event the pressure presses the reed onto its seat: no times are measured")
+      call suite%text("at rest", r%message(2)%s, &
+         & "warning: at the closing event the pressure does not hold the reed open: no times are measured")
+      call suite%text("without a film there is no seat", r%message(4)%s, r%message(2)%s)
+      call suite%true("a steady displacement is missing on the seat alone", all(ieee_is_nan(r%measure(steady, :)) &
+         & .eqv. [.true., .false., .false., .false., .false., .false.]))
+   end subroutine shut_warning
 
    !> Where a run starts, and which way its film acts.
    subroutine start_and_film()

@@ -78,7 +78,7 @@ contains
          & //"t.csv:3:3: p_diff_kpa = '': a number is missing~t.csv:4:4: p_diff_kpa = 'x': not a number~" &
          & //"t.csv:5:3: p_diff_kpa = '1e999': too large for a double-precision number~" &
          & //"t.csv:6:3: p_diff_kpa = 'inf': NaN and infinity are not allowed~" &
-         & //"t.csv:7:3: p_diff_kpa = '2e5': beyond the limit of 100000000 Pa")
+         & //"t.csv:7:3: p_diff_kpa = '2e5': beyond the limit of 100000 kPa")
       call tell_trace("ragged", "t_ms,p_diff_kpa~1,2~2~3,4,5~4,4~", &
          & "t.csv:3:1: 1 columns; the header has 2~t.csv:4:1: 3 columns; the header has 2")
       call tell_trace("gap", "t_ms,p_diff_kpa~1,2~2,2~3,4~4,4~# here~25,3~26,3~", &
@@ -94,6 +94,13 @@ contains
          & "@:1:34: pressure.file: 'none.csv': there is no such file")
       call says(suite, "folder as trace", "&pressure kind = 'trace', file = '.', event_ms = 1 /", &
          & "@:1:34: pressure.file: '.' is a folder; name a file in it")
+      call tell_trace("too late", "t_s,p_diff_kpa~1,2~2e6,2~", &
+         & "t.csv:3:1: t_s = '2e6': beyond the limit of 1000000000 ms")
+      call write_file("t.csv", lines("t_ms,p_diff_kpa~1,2~9,2~17,2~"))
+      call says(suite, "trace without event", "&pressure kind = 'trace', file = 't.csv' /", &
+         & "@:1:18: pressure.kind = 'trace' needs pressure.event_ms, the time when closing starts")
+      call says(suite, "trace without event, its end given", "&pressure kind = 'trace', file = 't.csv' /~&run t_end_ms = 15 /", &
+         & "@:1:18: pressure.kind = 'trace' needs pressure.event_ms, the time when closing starts")
       call says(suite, "trace without file and event", "&pressure kind = 'trace' /", &
          & "@:1:18: pressure.kind = 'trace' needs pressure.file, the CSV file of the trace~" &
          & //"@:1:18: pressure.kind = 'trace' needs pressure.event_ms, the time when closing starts")

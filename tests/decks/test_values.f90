@@ -26,6 +26,12 @@ contains
       call says(suite, "no film that could be closed", "&film gap_mm = 0, k_s = 0 /", "")
       call says(suite, "nor here", "&film gap_mm = 0 /~&run model = 'traditional' /", &
          & "@:1:16: warning: film.gap_mm has no effect on the model 'traditional'")
+      call says(suite, "fields after the end", "&film fields_ms = 39, 40, 40.1, 50 /~&run model = 'film' /", &
+         & "@:1:19: warning: film.fields_ms: 2 of its times outside the run, 0 to 40 ms: no field is stored for them")
+      call says(suite, "fields up to the end", "&film fields_ms = 0, 40 /~&run model = 'film' /", "")
+      call says(suite, "fields up to the longest end", "&film fields_ms = 45, 60 /~&run model = 'film' /~" &
+         & //"&sweep key = 'run.t_end_ms', values = 50, 20 /", &
+         & "@:1:19: warning: film.fields_ms: 1 of its times outside the run, 0 to 50 ms: no field is stored for them")
       call says(suite, "zero that is allowed", "&film k_s = 0 /", "")
       call says(suite, "negative where zero is allowed", "&film k_s = -1e-9 /", &
          & "@:1:13: film.k_s = -1e-9: must be >= 0")
@@ -55,7 +61,14 @@ contains
       call says(suite, "unit behind", "&film gap_mm = 0.05mm /", &
          & "@:1:16: film.gap_mm = 0.05mm: not a number; its unit is mm, write the number alone")
       call says(suite, "unit behind a blank", "&film gap_mm = 0.05 mm /", &
-         & "@:1:21: film.gap_mm: one value is due, 2 are given; to vary it: &sweep key = 'film.gap_mm', values = ... /")
+         & "@:1:21: film.gap_mm: one value is due, 2 are given; its unit is mm, write the number alone")
+      call says(suite, "a word where there is no unit", "&film k_s = 0.05 mm /", "@:1:18: film.k_s: one value is due, 2 are given")
+      call says(suite, "units in lists", "&film fields_ms = 1 ms, 2 s /~&run model = 'film' /", &
+         & "@:1:21: film.fields_ms = ms: not a number; its unit is ms, write the number alone~" &
+         & //"@:1:27: film.fields_ms = s: not a number")
+      call says(suite, "units in a sweep", "&sweep key = 'film.gap_mm', from = 0.1 mm, to = 1 mm, count = 3 /", &
+         & "@:1:40: sweep.from: one value is due, 2 are given; its unit is mm, write the number alone~" &
+         & //"@:1:51: sweep.to: one value is due, 2 are given; its unit is mm, write the number alone")
       call says(suite, "whole numbers", "&solver max_steps = 1e5 width = 2.0 /", &
          & "@:1:21: solver.max_steps = 1e5: not a whole number~@:1:33: solver.width = 2.0: not a whole number")
       call says(suite, "whole number, overflow", "&solver max_steps = 99999999999999999999 /", &

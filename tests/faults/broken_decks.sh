@@ -46,6 +46,14 @@ rm bad.nml; truncate -s 1G bad.nml;                                   broken 2 '
 rm bad.nml;                                                           broken 3 "bad.nml.*no such file"
 mkdir bad.nml;                                                        broken 3 "bad.nml.*folder"
 rmdir bad.nml
+deck "&run /"
+expect 3 "'bad': there is no such file; did you mean 'bad.nml'[?]" run bad
+mkdir bad
+expect 3 "'bad/' is a folder; name a file in it; did you mean 'bad.nml'[?]" run bad/
+mv bad elsewhere
+touch elsewhere/results.nc
+expect 3 "'elsewhere' is a folder with results, not a deck" check elsewhere
+rm -r elsewhere
 deck "&film gap_mm = -0.05, gep_mm = 1 /" "&reed a_mm = 'x' /"
 broken 2 '3 faults'
 

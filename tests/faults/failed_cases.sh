@@ -35,7 +35,7 @@ if [ "$rows" = 2 ]; then pass "both tell how low"; else wrong "$rows of 2 tell h
 # a film without a gap is closed before anything moves: its case ends there, whatever told the gap; others go on
 for model in squeeze film film_table; do
    printf "&run model = '%s' /\n&film gap_mm = 0 /\n" $model >shut.nml
-   expect 1 'case 1 \(film_closed\): at t = 0 s: .*closed over the whole land: the gap is 0' run shut.nml --force
+   expect 1 'case 1 \(film_closed\): at t = 0 ms: .*closed over the whole land: the gap is 0' run shut.nml --force
 done
 expect 0 'shut.nml:2:16: warning: film.gap_mm = 0: the film is closed from the start' check shut.nml
 expect 0 'The film is closed at film.gap_mm = 0' modes shut.nml

@@ -67,21 +67,23 @@ if [ $refused = 3 ]; then pass "one of two decks has the folder"; else wrong "$r
 expect 0 'none failed' merge contested
 
 # while slices are at work (held still, to be sure) others may join, and nobody may take the folder
-# slice_holds FOLDER I/N HOLDERS: start a slice and hold it still once it and so many in all are at work
+# slice_holds FOLDER I: start slice I of 3 and hold it still once it is at work
 slice_holds() {
-   "$program" run slow.nml -o "$1" --slice "$2" --threads 1 --quiet &
+   "$program" run slow.nml -o "$1" --slice "$2/3" --threads 1 --quiet &
    slice=$!
-   while kill -0 $slice 2>/dev/null; do
-      if [ -e "$1/parts/manifest" ] && [ "$(wc -l <"$1/run.lock")" -ge "$3" ]; then break; fi
-   done
+   while kill -0 $slice 2>/dev/null && [ ! -s "$1/parts/slice_$2_of_3.lock" ]; do :; done
    kill -STOP $slice
 }
-slice_holds busy 2/3 1
+slice_holds busy 2
 first=$slice
 expect 3 "another run is at work in 'busy' \(process $first on .*\): wait" run slow.nml -o busy --resume
 expect 3 "another run is at work" run slow.nml -o busy --force
 expect 3 "another run is at work" merge busy
-slice_holds busy 1/3 2
+expect 3 "slice 2/3 is at work in 'busy' already \(process $first on .*\): wait" run slow.nml -o busy --slice 2/3
+expect 3 "slice 2/3 is at work" run slow.nml -o busy --slice 2/3 --resume
+expect 0 'Slice 17/17: 0 cases' run slow.nml -o busy --slice 17/17
+expect 3 "another run is at work" merge busy   # who ends takes the lock of nobody else away
+slice_holds busy 1
 second=$slice
 kill -9 $first
 wait $first 2>/dev/null
@@ -94,7 +96,7 @@ if [ $got = 1 ]; then pass "a slice stops on request"; else wrong "exit status $
 kept=$(ls busy/parts | grep -c 'part$')
 if [ "$kept" -lt 16 ]; then pass "$kept of 16 blocks are kept"; else wrong "nothing is left to resume"; fi
 fails "no lock is left" test -e busy/run.lock
-expect 0 'none failed' run slow.nml -o busy --slice 2/2 --resume
+expect 0 'none failed' run slow.nml -o busy --slice 2/3 --resume
 expect 0 'none failed' run slow.nml -o busy --resume
 expect 0 'none failed' run slow.nml -o whole_slow
 same whole_slow busy

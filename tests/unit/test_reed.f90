@@ -146,7 +146,7 @@ contains
       end do
       data = paper
       data(2) = 6.5e-3_wp
-      call refused("hole of 6.5 mm in a reed of 6 mm", data, "(diameter 0.0065 m) is wider than the reed (0.006 m)")
+      call refused("hole of 6.5 mm in a reed of 6 mm", data, "(diameter 6.5 mm) is wider than the reed (6 mm)")
       data(2) = data(4)
       call suite%true("a hole as wide as the reed is allowed", allocated_stiffness(data) > 0.0_wp)
    end subroutine test_refused_data
