@@ -38,7 +38,7 @@ demo:
 
 test: build
 	ctest --preset release
-	REEDVALVE=$(abspath $(reedvalve)) $(venv)/python -m pytest -q postproc drivers/benchmarks
+	REEDVALVE=$(abspath $(reedvalve)) $(venv)/python -m pytest -q postproc drivers/benchmarks drivers/python
 
 %-test: checks build-%
 	ctest --preset $*

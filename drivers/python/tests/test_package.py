@@ -1,0 +1,125 @@
+"""The package and the library know the same names and numbers."""
+
+from __future__ import annotations
+
+import doctest
+import importlib
+import re
+import subprocess
+import sys
+from dataclasses import fields
+from pathlib import Path
+
+import pytest
+from conftest import LIBRARY, ROOT
+
+import reedvalve as rv
+from reedvalve import _errors, _library
+
+HEADER = re.sub(r"/\*.*?\*/", "", (ROOT / "include" / "reedvalve.h").read_text(encoding="utf-8"), flags=re.S)
+
+
+def header_enum(name: str) -> dict[str, int]:
+    """Names and numbers of an enumeration of the header."""
+    body = re.search(rf"enum rv_{name} {{(.*?)}};", HEADER, flags=re.S)[1]
+    return {word: int(number) for word, number in re.findall(r"RV_(\w+) = (\d+)", body)}
+
+
+def test_functions_are_those_of_the_header() -> None:
+    """Names, number of arguments, and which of them are real numbers, which go by another register than addresses."""
+    declared = dict(re.findall(r"int (rv_\w+)\(([^)]*)\)", HEADER))
+    assert set(declared) == set(_library.SIGNATURES)
+    for name, words in declared.items():
+        kinds = [] if words == "void" else [re.sub(r"\w+(\[\])?$", "", word).strip() for word in words.split(",")]
+        ours = _library.SIGNATURES[name]
+        assert len(kinds) == len(ours), name
+        for kind, our in zip(kinds, ours):
+            plain = {"int": "c_int", "double": "c_double", "size_t": "c_ulong"}.get(kind)
+            assert our.__name__ == plain if plain else our.__name__ not in ("c_int", "c_double", "c_ulong"), name
+
+
+def test_numbers_are_those_of_the_header() -> None:
+    """Codes, endings, kinds."""
+    codes = header_enum("code")
+    assert codes.pop("OK") == 0
+    assert {kind.code for kind in _errors._KINDS.values()} == set(codes.values())
+    for name, kind in (("BAD_INPUT", rv.BadInputError), ("IO", rv.FileError), ("NOT_CONVERGED", rv.NotConvergedError),
+                       ("DOMAIN", rv.DomainError), ("INTERNAL", rv.InternalError)):  # fmt: skip
+        assert kind.code == codes[name]
+    assert {f"CASE_{status.name}": status.value for status in rv.Status} == header_enum("case")
+    assert {kind.name: kind.value for kind in rv.Kind} == header_enum("kind")
+
+
+def test_outputs_are_those_of_the_header() -> None:
+    """Each property asks for its own number."""
+    asked = []
+    valve = rv.Valve()
+    valve._output = asked.append
+    names = {"DISPLACEMENT": "displacement", "VELOCITY": "velocity", "INLET": "inlet", "OUTLET": "outlet",
+             "FILM_FORCE": "film_force", "PART_A": "part_a", "PART_B": "part_b", "PART_C": "part_c",
+             "LEAKAGE": "leakage", "FILM_LOW": "film_low"}  # fmt: skip
+    for name, number in header_enum("out").items():
+        getattr(valve, names[name])
+        assert asked.pop() == number, name
+
+
+def test_measures_are_attributes() -> None:
+    """In the library's order."""
+    names = [field.name for field in fields(rv.Result)]
+    assert names == ["status", "message", *rv.MEASURES, "facts", "traces"]
+
+
+def test_units() -> None:
+    """Of keys in any case, measures and traces; what has none, and what there is not."""
+    assert rv.unit("film.gap_mm") == rv.unit("Film.GAP_mm") == "mm"
+    assert rv.unit("fluid.viscosity_pa_s") == "Pa s"
+    assert rv.unit("peak_squeeze_n") == "N"
+    assert rv.unit("leakage_mm3_ms") == "mm3 ms-1"
+    assert rv.unit("wet_frequency_hz") == "Hz"
+    assert rv.unit("run.model") == ""
+    with pytest.raises(rv.UnknownKeyError, match="'gap' is neither"):
+        rv.unit("gap")
+
+
+def test_keys_tell_what_they_mean() -> None:
+    """As docs/decks.md has it."""
+    page = (ROOT / "docs" / "decks.md").read_text(encoding="utf-8")
+    assert rv.KEYS["film.modes"] == rv.Key("film.modes", "", rv.Kind.INTEGER, "plate modes of the film model")
+    for key in rv.KEYS.values():
+        assert key.help in page
+
+
+def test_version() -> None:
+    """That of the project."""
+    assert f"project(reedvalve VERSION {rv.__version__} " in (ROOT / "CMakeLists.txt").read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize("name", ["__init__", "_names", "_sweep", "_valve"])
+def test_examples_of_docstrings(name: str) -> None:
+    """Each runs as printed."""
+    module = importlib.import_module(f"reedvalve.{name}" if name != "__init__" else "reedvalve")
+    result = doctest.testmod(module, extraglobs={"Valve": rv.Valve})
+    assert result.attempted > 0
+    assert result.failed == 0
+
+
+def import_with(library: str) -> subprocess.CompletedProcess[str]:
+    """Import the package in a new interpreter with REEDVALVE_LIBRARY set."""
+    words = [sys.executable, "-B", "-c", "import reedvalve; print(reedvalve.__version__)"]
+    names = {"REEDVALVE_LIBRARY": library, "PYTHONPATH": str(Path(rv.__file__).parents[1])}
+    return subprocess.run(words, env=names, capture_output=True, text=True)
+
+
+def test_library_is_named(tmp_path: Path) -> None:
+    """REEDVALVE_LIBRARY says which; without a library the import says what was tried."""
+    assert import_with(str(LIBRARY)).stdout == f"{rv.__version__}\n"
+    missing = import_with(str(tmp_path / "none.so"))
+    if missing.returncode != 0:  # else one is installed on this machine
+        assert "the library of reedvalve cannot be loaded; REEDVALVE_LIBRARY may name it:" in missing.stderr
+        assert "none.so: cannot open shared object file" in missing.stderr
+        assert f"{_library.INSTALLED}: cannot open shared object file" in missing.stderr
+
+
+def test_installed_name() -> None:
+    """The soname under which an installed library is looked for."""
+    assert Path(_library.INSTALLED).name == LIBRARY.readlink().name
