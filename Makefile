@@ -6,7 +6,7 @@ demo := results/demo
 # Matplotlib keeps its font list here, not in the home folder, which need not exist.
 export MPLCONFIGDIR := $(abspath build/matplotlib)
 
-.PHONY: help demo test build deb bench lint format bootstrap checks clean
+.PHONY: help demo test test-programs test-python build deb bench lint format bootstrap checks clean
 help:
 	@echo "make demo      run the paper's cases, compare with its tables, write a report"
 	@echo "make test      build, then run all tests"
@@ -42,8 +42,12 @@ demo:
 	@echo "The report: $(abspath $(demo)/report.html)"
 
 test: build
-	ctest --preset release
-	REEDVALVE=$(abspath $(reedvalve)) $(venv)/python -m pytest -q postproc drivers/benchmarks drivers/python
+	@echo "== tests: about a minute; what they say comes when they are done"
+	@$(MAKE) --no-print-directory --keep-going --jobs=2 --output-sync=target test-programs test-python
+test-programs:
+	@ctest --preset release
+test-python:
+	@REEDVALVE=$(abspath $(reedvalve)) $(venv)/python -m pytest -q postproc drivers/benchmarks drivers/python
 
 %-test: checks build-%
 	ctest --preset $*

@@ -48,7 +48,7 @@ class Extent:
 QUICK = Extent(rounds=2, seconds=0.2, sample=4, rtols=(1e-4, 1e-6, 1e-8), sides=(32, 100), widths=(1, 16, 256),
                ladder=LADDER[6:36:2], scipy=("LSODA",), python_peers=False)  # fmt: skip
 SMOKE = Extent(rounds=1, seconds=0.0, sample=2, rtols=(1e-5, 1e-6), sides=(8,), widths=(64,), cases=64,
-               ladder=(1e-4, 1e-5, 3e-6, 1e-6, 3e-7), scipy=("LSODA",),
+               ladder=(1e-5, 1e-6, 1e-7), scipy=("LSODA",),
                python_peers=False)  # fmt: skip
 
 

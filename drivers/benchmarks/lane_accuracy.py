@@ -8,7 +8,7 @@ case in each group.
 
 The single runs themselves are held against SciPy's Radau with rtol 1e-12, which knows nothing of this code, on a few.
 
-usage: lane_accuracy.py [--build FOLDER] [--output FOLDER] [--cases N] [--seed N] [--check N]
+usage: lane_accuracy.py [--build FOLDER] [--output FOLDER] [--cases N] [--seed N] [--check N] [--seconds S]
 """
 
 from __future__ import annotations
@@ -39,10 +39,11 @@ RELATIVE = ("fall_ms", "closing_ms", "steady_mm")
 class Blocks:
     """Runs designs of cases."""
 
-    def __init__(self, build: Path, folder: Path) -> None:
+    def __init__(self, build: Path, folder: Path, seconds: float) -> None:
         self.program = build / "drivers" / "reedvalve" / "reedvalve"
         self.kernel = build / "drivers" / "benchmarks" / "block_speed"
         self.folder = folder
+        self.seconds = str(seconds)
         for path in (self.program, self.kernel):
             if not path.is_file():
                 raise SystemExit(f"lane_accuracy: {path} is not built")
@@ -78,7 +79,7 @@ class Blocks:
     def rate(self, cases: np.ndarray, *words: object) -> float:
         """Cases per second without files, one thread; NaN where a case fails."""
         done = subprocess.run(
-            [self.kernel, self.deck(cases, *words), "1", self.folder / "times", "0.5"], capture_output=True, text=True
+            [self.kernel, self.deck(cases, *words), "1", self.folder / "times", self.seconds], capture_output=True, text=True
         )
         return len(cases) / float(done.stdout) if done.returncode == 0 else float("nan")
 
@@ -167,12 +168,13 @@ def main() -> int:
     parser.add_argument("--cases", type=int, default=1024)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--check", type=int, default=0, help="single runs to hold against SciPy, some seconds each")
+    parser.add_argument("--seconds", type=float, default=0.5, help="that a measurement of speed lasts at least")
     words = parser.parse_args()
     random = np.random.default_rng(words.seed)
     cases = draw(random, words.cases, RANGES)
     easy = draw(random, words.cases, EASY)
     with tempfile.TemporaryDirectory() as folder:
-        blocks = Blocks(words.build.resolve(), Path(folder))
+        blocks = Blocks(words.build.resolve(), Path(folder), words.seconds)
         methods = blocks.methods()
         exact = blocks.run(cases, EXACT, 1, 256, methods[0])
         if words.check:

@@ -1,7 +1,7 @@
 """The program against an independent solution: a 64 x 64 sweep of pressure and gap.
 
 The program is found through the environment variable REEDVALVE. Its whole sweep is
-compared with the stored SciPy solution, and a fixed random sample of 40 cases, the
+compared with the stored SciPy solution, and a fixed random sample of 12 cases, the
 corners among them, with solutions made afresh. The traditional model and the traces of
 Table V are compared too.
 """
@@ -23,7 +23,7 @@ from synthetic import table_5_cases
 
 TIME_LIMIT = 1.0e-4  # relative, of fall and closing time
 LENGTH_LIMIT = 1.0e-5  # of undershoot and overshoot [mm]
-SAMPLE = [0, 63, 4032, 4095, *sorted(random.Random(4096).sample(range(1, 4095), 36))]
+SAMPLE = [0, 63, 4032, 4095, *sorted(random.Random(4096).sample(range(1, 4095), 8))]
 
 DECK = """\
 &run      title = 'SciPy test', {run} /

@@ -1,6 +1,6 @@
 # What a results folder may hold, and what is done about it.
 . "$(dirname "$0")/common.sh"
-sweep_deck "$(slow_count 600)" >deck.nml
+sweep_deck "$(slow_count 300)" >deck.nml
 sed 's/0.30/0.35/' deck.nml >other.nml
 expect 0 'none failed' run deck.nml -o whole
 

@@ -1,6 +1,6 @@
 # kill -9 at random moments, then --resume with another number of threads: the bytes of an unbroken run.
 . "$(dirname "$0")/common.sh"
-sweep_deck "$(slow_count 600)" >deck.nml
+sweep_deck "$(slow_count 400)" >deck.nml
 
 start=$(date +%s%N)
 expect 0 'none failed' run deck.nml -o whole --threads 2
@@ -9,7 +9,7 @@ length=$((($(date +%s%N) - start) / 1000000))   # [ms]
 seed=$(od -An -N2 -tu2 /dev/urandom | tr -d ' ')
 echo "  seed $seed, an unbroken run takes $length ms"
 killed=0
-for round in 1 2 3 4; do
+for round in 1 2; do
    rm -rf broken
    # two kills, the second in a resumed run
    for attempt in 1 2; do
@@ -28,7 +28,7 @@ for round in 1 2 3 4; do
    fails "no parts are left" test -e broken/parts
    fails "no lock is left" test -e broken/run.lock
 done
-if [ $killed -gt 1 ]; then pass "$killed kills hit a running program"; else wrong "only $killed kills hit a running program"; fi
+if [ $killed -gt 0 ]; then pass "$killed kills hit a running program"; else wrong "only $killed kills hit a running program"; fi
 
 # in the middle of the merge
 rm -rf broken

@@ -1,6 +1,6 @@
 # Ctrl-C, SIGTERM and a lost connection: the blocks under way are finished, exit 1, a message how to go on, and the same bytes in the end.
 . "$(dirname "$0")/common.sh"
-sweep_deck "$(slow_count 600)" >deck.nml
+sweep_deck "$(slow_count 400)" >deck.nml
 expect 0 'none failed' run deck.nml -o whole
 for signal in 'INT 1' 'TERM 2' 'HUP 2'; do
    rm -rf part

@@ -20,7 +20,7 @@ awk '/^## / {heading = substr($0, 4)} /\/examples\// && heading != last {print l
 built=0
 while read -r heading; do
    echo "== $heading"
-   sh page.sh /debs/install.md "$heading" /nowhere "/work/$built" /usr
+   sh page.sh example /debs/install.md "$heading" /nowhere "/work/$built" /usr
    built=$((built + 1))
 done <headings
 [ $built -ge 4 ]

@@ -2,7 +2,7 @@
 . "$(dirname "$0")/../faults/common.sh"
 sweep_deck 20 1.0e-6 >deck.nml
 sweep_deck 21 1.0e-6 >other.nml
-sweep_deck "$(slow_count 1500)" >slow.nml
+sweep_deck "$(slow_count 600)" >slow.nml
 expect 0 'none failed' run deck.nml -o whole
 
 # words
