@@ -223,7 +223,7 @@ contains
    subroutine test_sweep()
       integer, parameter :: n = 600
       type(reed_valve) :: valve
-      character(len=24) :: keys(2) = [character(len=24) :: "film.gap_mm", "pressure.inlet_kpa"]
+      character(len=24) :: keys(2)
       real(wp) :: values(2, n), wide(4, n), measure_of_c(9, n)
       real(wp), allocatable :: measures(:, :)
       integer, allocatable :: status(:)
@@ -234,6 +234,7 @@ contains
          values(:, i) = [0.03_wp + 1.0e-4_wp*real(i, wp), 10.0_wp + real(mod(i, 7), wp)]
       end do
       values(1, 2) = 0.0_wp
+      keys = [character(len=24) :: "film.gap_mm", "pressure.inlet_kpa"]
       call valve%open()
       call valve%sweep(keys, values, measures, status)
       call good(valve, "sweep")
