@@ -6,14 +6,16 @@ demo := results/demo
 # Matplotlib keeps its font list here, not in the home folder, which need not exist.
 export MPLCONFIGDIR := $(abspath build/matplotlib)
 
-.PHONY: help demo test test-programs test-python build bench lint format bootstrap checks clean
+.PHONY: help demo test test-programs test-python build deb bench lint format bootstrap checks clean
 help:
 	@echo "make demo      run the paper's cases, compare with its tables, write a report"
 	@echo "make test      build, then run all tests"
 	@echo "make build     build the program: $(reedvalve)"
+	@echo "make deb       Debian packages: build/deb/packages"
 	@echo "make bench     cases per second, beside CVODE, Boost.odeint and SciPy; quick=1: less of it, in a minute"
 	@echo "make lint      check format and style of the sources; make format puts them right"
 	@echo "make debug-test, sanitize-test, valgrind-test    the tests in builds with more checks"
+	@echo "make deb-test  the packages in a Debian of their own"
 	@echo "make clean     remove build/ and results/"
 
 bootstrap:
@@ -26,6 +28,9 @@ build-%: bootstrap
 	@echo "== $* build"
 	@cmake --preset $* >/dev/null
 	@cmake --build --preset $* $(if $(target),--target $(target))
+
+deb: checks build-deb
+	@cpack --preset deb
 
 demo:
 	@$(MAKE) --no-print-directory build target=reedvalve_cli

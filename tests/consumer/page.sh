@@ -1,10 +1,10 @@
-# page.sh PAGE HEADING BUILD WORK PREFIX [EXPECTED [RUNNER...]]
+# page.sh commands|example PAGE HEADING BUILD WORK PREFIX [RUNNER...]
 # Run the block of shell commands below a heading of a page as it is printed, in the folder WORK, where the build tree is
-# build/release; $HOME/reedvalve is PREFIX. With EXPECTED, the last command is a program that prints what stands in this
-# file and uses the library of PREFIX; RUNNER, valgrind for one, runs it.
+# build/release; $HOME/reedvalve is PREFIX. Those of an example end in a call of its program: RUNNER, valgrind for one,
+# runs it, it uses the library of PREFIX, and prints what stands beside its source.
 set -eu
-page=$1 heading=$2 build=$3 work=$4 prefix=$5 expected=${6:-}
-if [ $# -gt 6 ]; then shift 6; else set --; fi
+kind=$1 page=$2 heading=$3 build=$4 work=$5 prefix=$6
+shift 6
 
 mkdir -p "$work/build"
 cd "$work"
@@ -21,14 +21,19 @@ if grep -q '^module ' block.sh; then
    [ -r $modules ] || { echo "skipped: Environment Modules are not installed"; exit 77; }
    . $modules
 fi
-if [ -z "$expected" ]; then
+if [ "$kind" = commands ]; then
    . ./block.sh
    exit
 fi
 
+example=$(grep -o '[^ ]*/examples/[a-z0-9]*' block.sh | head -n 1)
 sed '$d' block.sh >build.sh
 program=$(tail -n 1 block.sh)
 . ./build.sh
-ldd "$program" | grep -F 'libreedvalve.so' | grep -F "$prefix/" || { echo "not with the library of $prefix" >&2; exit 1; }
+library=$(realpath "$(ldd "$program" | awk '$1 ~ /^libreedvalve/ {print $3}')")
+case $library in
+"$prefix"/*) ;;
+*) echo "with the library $library and not that of $prefix" >&2; exit 1 ;;
+esac
 "$@" "$program" >printed.txt
-diff "$expected" printed.txt
+diff "$(find "$example" -name '*.txt' ! -name CMakeLists.txt)" printed.txt
