@@ -79,7 +79,9 @@ class Blocks:
     def rate(self, cases: np.ndarray, *words: object) -> float:
         """Cases per second without files, one thread; NaN where a case fails."""
         done = subprocess.run(
-            [self.kernel, self.deck(cases, *words), "1", self.folder / "times", self.seconds], capture_output=True, text=True
+            [self.kernel, self.deck(cases, *words), "1", self.folder / "times", self.seconds],
+            capture_output=True,
+            text=True,
         )
         return len(cases) / float(done.stdout) if done.returncode == 0 else float("nan")
 

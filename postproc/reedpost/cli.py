@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import os
 import sys
 from collections.abc import Callable
 from pathlib import Path
@@ -126,7 +127,12 @@ def main(words: list[str] | None = None) -> int:
     if not results:
         return UNUSABLE
     try:
-        return max(status, commands[arguments.command](arguments, results))
+        status = max(status, commands[arguments.command](arguments, results))
+        sys.stdout.flush()
+        return status
+    except BrokenPipeError:  # whoever read the output, `head` say, has had enough
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # nor does the last flush find it broken
+        return INCOMPLETE
     except OSError as error:
         _complain(f"cannot write: {error}")
         return UNUSABLE

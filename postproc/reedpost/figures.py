@@ -86,7 +86,8 @@ def history_picture(variant: Variant, pressures: list[float], problems: list[str
         28.0 * len(pressures) + 18.0, len(pressures), 2, sharey="row", sharex="col",
         gridspec_kw={"width_ratios": [1.0, 1.25]},
     )  # fmt: skip
-    gap = _gap_to_draw(variant)
+    gap = variant.gap_to_draw
+    with_fea = variant.is_the_papers and gap == paper.GAP_MM
     event = closing_event_ms(result, int(variant.cases[0]))
     windows = [(0.0, 5.0), (event - 0.5, event + 6.5)]
     for pressure, row in zip(pressures, grid, strict=True):
@@ -104,7 +105,7 @@ def history_picture(variant: Variant, pressures: list[float], problems: list[str
             axes.axhline(0.0, color=GREY, lw=0.5, zorder=0)
         row[1].tick_params(labelleft=False)
         row[1].annotate(f"{pressure:g} kPa", (0.97, 0.93), xycoords="axes fraction", ha="right", va="top")
-        if pressure in fea and gap == paper.GAP_MM:
+        if with_fea and pressure in fea:
             row[1].plot(event + fea[pressure], 0.02 * steady, marker="x", color=BLACK, ls="", mew=1.2)
     for axes, title in zip(grid[0], ("opening", "closing"), strict=True):
         axes.set_title(title)
@@ -115,7 +116,10 @@ def history_picture(variant: Variant, pressures: list[float], problems: list[str
         Line2D([], [], color=look(model).color, ls=look(model).line, label=look(model).label)
         for model in variant.models
     ]
-    handles += [Line2D([], [], color=BLACK, marker="x", ls="", mew=1.2, label="finite elements, 2 %")]
+    crosses = ""
+    if with_fea:
+        handles += [Line2D([], [], color=BLACK, marker="x", ls="", mew=1.2, label="finite elements, 2 %")]
+        crosses = " Crosses: where the published finite elements reach 2 % of the steady displacement."
     figure.legend(
         handles=handles, loc="outside upper center", ncols=3, columnspacing=1.0, handlelength=1.8,
         handletextpad=0.4,
@@ -124,18 +128,9 @@ def history_picture(variant: Variant, pressures: list[float], problems: list[str
         "displacement_histories",
         "Tip displacement while opening and closing at "
         + ", ".join(f"{p:g}" for p in pressures)
-        + f" kPa, gap {gap:g} mm. Crosses: where the published finite elements reach 2 % of"
-        " the steady displacement.",
+        + f" kPa, gap {gap:g} mm.{crosses}",
         figure,
     )
-
-
-def _gap_to_draw(variant: Variant) -> float:
-    """The finite elements' gap [mm], or the narrowest of a result that does not hold it."""
-    gaps = variant.axis("film.gap_mm")
-    if not len(gaps) or np.isclose(gaps, paper.GAP_MM, rtol=1e-6).any():
-        return paper.GAP_MM
-    return float(gaps[0])
 
 
 def _good_case(variant: Variant, model: str, pressure: float, gap: float, problems: list[str]) -> int | None:
@@ -151,21 +146,28 @@ def _good_case(variant: Variant, model: str, pressure: float, gap: float, proble
 
 
 def times_picture(variant: Variant, problems: list[str]) -> Picture:
-    """Fall and closing time against pressure with the published points."""
+    """Fall and closing time against pressure, for the paper's valve with the published points."""
     figure, grid = new_figure(115.0, 2, 1, sharex=True)
+    gap = variant.gap_to_draw
+    with_published = variant.is_the_papers and gap == paper.GAP_MM
+    highest = max(40.0 if with_published else 0.0, float(variant.axis("pressure.inlet_kpa")[-1]))
     for axes, key in zip(grid[:, 0], SWEEPS, strict=True):
         _, file, measure, quantity, _ = SWEEPS[key]
         rows = paper.table(file)
         inlet = [row["inlet_kpa"] for row in rows]
         for model in variant.models:
             kind, published = look(model), paper.PUBLISHED.get(model)
-            pressures, values = _curve(variant, model, measure, problems)
+            pressures, values = _curve(variant, model, gap, measure, problems)
             axes.plot(pressures, values, color=kind.color, ls=kind.line, label=f"{kind.label}, ours")
-            if published:
+            if with_published and published:
                 axes.plot(
                     inlet, [row[f"{published}_ms"] for row in rows], color=kind.color, ls="",
                     marker=kind.marker, mfc="white", label=f"{kind.label}, published",
                 )  # fmt: skip
+        axes.set_ylabel(f"{quantity} (ms)")
+        axes.set_ylim(bottom=0.0)
+        if not with_published:
+            continue
         if not any(model in paper.PUBLISHED for model in variant.models):
             axes.plot(inlet, [row["proposed_ms"] for row in rows], color=BLUE, ls="", marker="o", mfc="white",
                       label="paper's model")  # fmt: skip
@@ -179,25 +181,21 @@ def times_picture(variant: Variant, problems: list[str]) -> Picture:
             yerr=[[scatter.chosen - scatter.lowest], [scatter.highest - scatter.chosen]],
             label="mesh scatter (Table I)",
         )  # fmt: skip
-        axes.set_ylabel(f"{quantity} (ms)")
-        axes.set_ylim(bottom=0.0)
     grid[1, 0].set_xlabel("inlet pressure (kPa)")
-    grid[1, 0].set_xlim(0.0, 42.0)
+    grid[1, 0].set_xlim(0.0, 1.05 * highest)
     handles, labels = grid[0, 0].get_legend_handles_labels()
     figure.legend(handles, labels, loc="outside upper center", ncols=2, columnspacing=1.5)
+    bar = " The bar at 20 kPa is how far the finite elements' own meshes lie apart." if with_published else ""
     return Picture(
-        "times_against_pressure",
-        f"Fall and closing time against inlet pressure, gap {paper.GAP_MM:g} mm. The bar at 20 kPa is"
-        " how far the finite elements' own meshes lie apart.",
-        figure,
+        "times_against_pressure", f"Fall and closing time against inlet pressure, gap {gap:g} mm.{bar}", figure
     )
 
 
-def _curve(variant: Variant, model: str, measure: str, problems: list[str]) -> tuple[list, list]:
-    """Pressures [kPa] and a measure [ms] of one model at the paper's gap."""
+def _curve(variant: Variant, model: str, gap: float, measure: str, problems: list[str]) -> tuple[list, list]:
+    """Pressures [kPa] and a measure [ms] of one model at a gap."""
     pressures, values = [], []
     for pressure in variant.axis("pressure.inlet_kpa"):
-        case = variant.find(model, float(pressure), paper.GAP_MM)
+        case = variant.find(model, float(pressure), gap)
         value = math.nan if case is None else float(variant.result.measure(measure)[case])
         if math.isnan(value):
             problems.append(f"no {measure} to draw at {pressure:g} kPa for model {model}")
@@ -223,18 +221,19 @@ def gap_picture(variant: Variant, model: str, problems: list[str]) -> Picture:
     figure, grid = new_figure(120.0, 2, 1, sharex=True)
     upper, lower = grid[:, 0]
     case, peak = None, 0.0
-    for gap, (color, line) in zip(paper.GAP_STUDY_MM, SERIES, strict=True):
-        case = _good_case(variant, model, paper.GAP_STUDY_KPA, gap, problems)
+    gaps, pressure = variant.gaps_to_draw, variant.pressure_to_draw
+    for gap, (color, line) in zip(gaps, SERIES, strict=False):
+        case = _good_case(variant, model, pressure, gap, problems)
         if case is None:
             continue
         upper.plot(time, 1e3 * result.trace("displacement_mm", case), color=color, ls=line,
-                   label=f"{gap:.2f} mm")  # fmt: skip
+                   label=f"{gap:.2f} mm" if round(gap, 2) == gap else f"{gap:.3g} mm")  # fmt: skip
         force = result.trace("squeeze_n", case)
         peak = max(peak, float(np.nanmax(force)))
         lower.plot(time, force, color=color, ls=line)
     case = int(variant.cases[0]) if case is None else case
     event = closing_event_ms(result, case)
-    hole = 1e-3 * paper.action_area_mm2(result, case) * paper.GAP_STUDY_KPA
+    hole = 1e-3 * paper.action_area_mm2(result, case) * pressure
     ramp = float(result.value("pressure.transition_ms", case))
     lower.plot([event - 1.0, event, event + ramp, event + 5.0], [hole, hole, 0.0, 0.0], color=BLACK,
                lw=0.9, label="pressure on the hole, $p_\\mathrm{in} A$")  # fmt: skip
@@ -251,7 +250,7 @@ def gap_picture(variant: Variant, model: str, problems: list[str]) -> Picture:
     lower.set_ylim(0.0, min(1.6 * peak, 1.1 * hole) or 1.1 * hole)
     return Picture(
         f"gap_study_{model}",
-        f"Closing at {paper.GAP_STUDY_KPA:g} kPa for gaps of 0.05 to 0.30 mm, {model} model: tip"
+        f"Closing at {pressure:g} kPa for gaps of {gaps[0]:g} to {gaps[-1]:g} mm, {model} model: tip"
         " displacement, and the film's force beside the pressure on the hole.",
         figure,
     )

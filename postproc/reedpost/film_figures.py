@@ -97,9 +97,7 @@ def _outline(form: Planform) -> Outline:
 def parts_picture(variant: Variant, model: str, problems: list[str]) -> Picture:
     """Forces on parts A, B and C and the displacement while closing, one panel a gap (Fig. 8)."""
     result, time = variant.result, variant.result.time()
-    gaps = [float(gap) for gap in variant.axis("film.gap_mm")]
-    own = [gap for gap in gaps if np.isclose(gap, paper.GAP_STUDY_MM, rtol=1e-6).any()]
-    gaps = own or gaps[: len(paper.GAP_STUDY_MM)]
+    gaps, pressure = variant.gaps_to_draw, variant.pressure_to_draw
     rows = math.ceil(len(gaps) / 2)
     figure, grid = new_figure(34.0 * rows + 18.0, rows, 2, sharex=True, sharey=True)
     mates = []
@@ -112,7 +110,7 @@ def parts_picture(variant: Variant, model: str, problems: list[str]) -> Picture:
         axes.set_zorder(mate.get_zorder() + 1)
         axes.patch.set_visible(False)
         axes.axhline(0.0, color=GREY, lw=0.5, zorder=0)
-        case = variant.find(model, paper.GAP_STUDY_KPA, gap)
+        case = variant.find(model, pressure, gap)
         if case is None or result.status[case] != "ok":
             why = "no case" if case is None else f"{result.status[case]} in the case"
             problems.append(f"{why} to draw: model {model}, gap {gap:g} mm")
@@ -142,7 +140,7 @@ def parts_picture(variant: Variant, model: str, problems: list[str]) -> Picture:
     return Picture(
         f"parts_{model}",
         f"Forces of the pressure on parts A, B and C of the reed, and its tip displacement, while closing at"
-        f" {paper.GAP_STUDY_KPA:g} kPa for gaps of {gaps[0]:.2f} to {gaps[-1]:.2f} mm, {model} model.",
+        f" {pressure:g} kPa for gaps of {gaps[0]:.2f} to {gaps[-1]:.2f} mm, {model} model.",
         figure,
     )
 

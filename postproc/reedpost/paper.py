@@ -88,6 +88,12 @@ def differences(result: Result, case: int) -> list[str]:
     return found
 
 
+def is_the_valve(result: Result, case: int) -> bool:
+    """Whether reed, oil and pressure wave are the paper's, whatever the reading of its fitted factors."""
+    fitted = tuple(f"{datum.key} " for datum in DATA if datum.lumped_only)
+    return not [line for line in differences(result, case) if not line.startswith(fitted)]
+
+
 def action_area_mm2(result: Result, case: int) -> float:
     """The area the pressure acts on [mm2]; the hole's unless the deck says otherwise."""
     area = result.value(AREA_KEY, case)

@@ -43,6 +43,35 @@ class Variant:
         values = self.result.values(key)[self.cases]
         return np.unique(values[~np.isnan(values)])
 
+    @property
+    def is_the_papers(self) -> bool:
+        """Whether the valve is the paper's; if not, its points do not belong beside it."""
+        return paper.is_the_valve(self.result, int(self.cases[0]))
+
+    @property
+    def gap_to_draw(self) -> float:
+        """The finite elements' gap [mm], or the narrowest of a result that does not hold it."""
+        gaps = self.axis("film.gap_mm")
+        if not len(gaps) or np.isclose(gaps, paper.GAP_MM, rtol=1e-6).any():
+            return paper.GAP_MM
+        return float(gaps[0])
+
+    @property
+    def gaps_to_draw(self) -> list[float]:
+        """Gaps of a gap study [mm]: all; of too many those of the paper, or some from the narrowest to the widest."""
+        gaps, most = self.axis("film.gap_mm"), len(paper.GAP_STUDY_MM)
+        if len(gaps) > most:
+            own = np.isclose(gaps[:, None], paper.GAP_STUDY_MM, rtol=1e-6).any(axis=1)
+            gaps = gaps[own] if own.sum() > 1 else gaps[np.linspace(0, len(gaps) - 1, most).round().astype(int)]
+        return gaps.tolist()
+
+    @property
+    def pressure_to_draw(self) -> float:
+        """Inlet pressure of a gap study [kPa]: the paper's, or the lowest of a result that does not hold it."""
+        pressures = self.axis("pressure.inlet_kpa")
+        near = np.isclose(pressures, paper.GAP_STUDY_KPA, rtol=1e-6)
+        return float(pressures[near][0] if near.any() else pressures[0])
+
     def find(self, model: str, inlet_kpa: float, gap_mm: float) -> int | None:
         """The case of `model` at a pressure and a gap; None when there is none.
 

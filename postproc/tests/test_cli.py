@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import re
+import subprocess
+import sys
 from html.parser import HTMLParser
 
 import pytest
@@ -39,6 +41,15 @@ def test_plot(gaps, broken, tmp_path, capsys):
     assert sorted(p.name for p in (tmp_path / "g").iterdir()) == ["gap_study_squeeze.png", "gap_study_squeeze.svg"]
     assert main(["plot", str(broken), "-o", str(tmp_path / "b")]) == 1
     assert "25 kPa" in capsys.readouterr().err
+
+
+def test_a_reader_that_has_had_enough(sweep, tmp_path):
+    """As of `reedpost compare ... | head`: no word about it, whenever the pipe breaks."""
+    words = [sys.executable, "-m", "reedpost", "compare", sweep, "-o", tmp_path]
+    with subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
+        process.stdout.close()
+        assert process.stderr.read() == b""
+    assert process.returncode == 1
 
 
 def test_usage(capsys):

@@ -9,6 +9,7 @@ import pytest
 from matplotlib import pyplot as plt
 from reedpost.figures import draw
 from reedpost.results import read_result
+from reedpost.studies import variants
 from reedpost.style import COLUMN_IN, LOOKS, svg_bytes
 from synthetic import Case, write_result
 
@@ -89,3 +90,43 @@ def test_a_valve_with_another_gap_is_drawn(tmp_path):
     assert album.problems == []
     assert "gap 0.1 mm" in album.pictures[0].caption
     assert len(album.pictures[0].figure.axes[0].lines) == 2  # the curve and the zero line
+
+
+def other_valve(folder):
+    """The result of a reed twice as thick."""
+    result = read_result(folder)
+    return replace(result, effective={**result.effective, "reed.thickness_mm": 0.3})
+
+
+def test_the_papers_points_stay_with_its_valve(sweep, response):
+    times = draw(other_valve(sweep)).pictures[0]
+    assert [line.get_label() for line in times.figure.axes[0].lines] == ["traditional, ours", "squeeze, ours"]
+    assert not times.figure.axes[0].containers  # nor the meshes' bar
+    assert times.caption.endswith("gap 0.05 mm.")
+    histories = draw(other_valve(response)).pictures[0]
+    assert "finite elements" not in histories.caption
+    assert all(line.get_marker() != "x" for axes in histories.figure.axes for line in axes.lines)
+
+
+def test_pressures_beyond_the_papers_are_in_the_picture(tmp_path):
+    folder = write_result(tmp_path / "r", [Case("squeeze", inlet_kpa=p) for p in (10.0, 50.0, 100.0, 200.0)])
+    figure = draw(read_result(folder)).pictures[0].figure
+    assert figure.axes[1].get_xlim() == (0.0, 210.0)
+
+
+def test_any_gaps_at_any_pressure_are_drawn(tmp_path):
+    time = np.arange(0.0, 40.001, 0.1)
+    cases = [Case("squeeze", inlet_kpa=30.0, gap_mm=gap) for gap in (0.06, 0.08)]
+    result = read_result(write_result(tmp_path / "r", cases, time))
+    album = draw(replace(result, effective={**result.effective, "pressure.inlet_kpa": 30.0}))
+    assert album.problems == []
+    assert "30 kPa for gaps of 0.06 to 0.08 mm" in album.pictures[0].caption
+    assert len(album.pictures[0].figure.axes[0].lines) == 3  # two curves and the zero line
+
+
+def test_too_many_gaps_for_one_picture(sweep):
+    """Of 16 those of the paper, or six from the narrowest to the widest."""
+    result = read_result(sweep)
+    for gaps, drawn in ((np.arange(4, 20), [5, 10, 15]), (np.arange(31, 47), [31, 34, 37, 40, 43, 46])):
+        variant = variants(replace(result, swept={"film.gap_mm": 0.01 * gaps}))[0]
+        assert variant.gaps_to_draw == pytest.approx([0.01 * gap for gap in drawn])

@@ -101,10 +101,11 @@ def test_stored_sweep_is_of_the_stated_cases():
 
 
 def test_stored_sweep_is_what_both_integrators_give():
-    """The file comes from DOP853: some of it again, and the slowest and the liveliest case by Radau, which shares nothing
-    with it but the equation."""
+    """The file comes from DOP853: some of it again, and the slowest and the liveliest case by Radau, which shares
+    nothing with it but the equation."""
     cases, table = stored.sweep_cases(), stored.read_reference()
-    sample = {0: "Radau", 4095: "Radau"} | dict.fromkeys([63, 4032, *random.Random(64).sample(range(1, 4095), 6)], "DOP853")
+    again = [63, 4032, *random.Random(64).sample(range(1, 4095), 6)]
+    sample = {0: "Radau", 4095: "Radau"} | dict.fromkeys(again, "DOP853")
     for i, method in sample.items():
         same_case([table[name][i] for name in stored.COLUMNS], stored.solve_case(cases[i], method))
 
