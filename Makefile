@@ -47,7 +47,7 @@ test: build
 test-programs:
 	@ctest --preset release
 test-python:
-	@REEDVALVE=$(abspath $(reedvalve)) $(venv)/python -m pytest -q postproc drivers/benchmarks drivers/python
+	@REEDVALVE=$(abspath $(reedvalve)) $(venv)/python -m pytest -q postproc drivers/benchmarks drivers/python drivers/fmu
 
 %-test: checks build-%
 	ctest --preset $*

@@ -23,6 +23,7 @@ module rv_cli_commands
    implicit none
    private
    public :: run_command, merge_command, check_command, cases_command, modes_command, template_command
+   public :: load_deck
 
    integer(i8), parameter :: sample_cases = 64      !! cases in one sample for the estimate: as many as share lanes
    integer, parameter :: samples = 4                !! spread over the deck

@@ -2,6 +2,7 @@
 module rv_cli_words
    use rv_cli_arguments, only : arguments_type, read_arguments
    use rv_cli_commands, only : cases_command, check_command, merge_command, modes_command, run_command, template_command
+   use rv_cli_fmu, only : fmu_command
    use rv_cli_help, only : print_help, print_version
    use rv_cli_output, only : complain, exit_bad, exit_fine
    use rv_crew, only : crew_type
@@ -46,6 +47,8 @@ contains
          status = cases_command(arguments)
       case ("modes")
          status = modes_command(arguments)
+      case ("fmu")
+         status = fmu_command(arguments)
       case ("template")
          status = template_command(arguments)
       case ("version")

@@ -1,0 +1,443 @@
+"""FMUs as an importer sees them: FMPy validates them, and what FMI 3.0 promises is tried one after the other."""
+
+from __future__ import annotations
+
+import ctypes
+import os
+import re
+import shutil
+import subprocess
+import sys
+import threading
+import zipfile
+from pathlib import Path
+
+import netCDF4
+import numpy as np
+import pytest
+
+fmpy = pytest.importorskip("fmpy")
+from fmpy.fmi3 import FMU3Slave, fmi3LogMessageCallback  # noqa: E402
+from fmpy.validation import validate_fmu  # noqa: E402
+
+HERE = Path(__file__).parent
+BUILD = HERE.parents[1] / "build" / "release" / "drivers" / "reedvalve" / "reedvalve"
+PROGRAM = Path(os.environ.get("REEDVALVE", BUILD))
+RTOL = 1e-6
+STEP = 5e-5  # [s]
+WAVE = "&pressure kind = 'square', inlet_kpa = 20.0, period_ms = 6.0, transition_ms = 0.5 /\n"
+MODELS = ["traditional", "squeeze", "film", "film_table"]
+
+pytestmark = pytest.mark.skipif(
+    not (PROGRAM.parent / "fmu" / "reedvalve.so").exists(), reason="this program was built without FMUs"
+)
+
+
+def reedvalve(*words: object, status: int = 0) -> str:
+    """Run the program; what it says."""
+    done = subprocess.run([PROGRAM, *map(str, words)], capture_output=True, text=True)
+    assert done.returncode == status, done.stderr
+    return done.stdout + done.stderr
+
+
+def deck_of(model: str) -> str:
+    return f"&run model = '{model}', t_end_ms = 6.0, traces = .true., trace_dt_ms = 0.05 /\n{WAVE}"
+
+
+def pack(folder: Path, deck: str, name: str = "valve") -> Path:
+    (folder / f"{name}.nml").write_text(deck)
+    reedvalve("fmu", folder / f"{name}.nml", "-o", folder / f"{name}.fmu", "--quiet")
+    return folder / f"{name}.fmu"
+
+
+class Valve:
+    """One instance of an unpacked FMU, its variables by name, and what it has logged."""
+
+    def __init__(self, folder: Path, name: str = "valve", logging: bool = True) -> None:
+        description = fmpy.read_model_description(str(folder))
+        self.reference = {v.name: v.valueReference for v in description.modelVariables}
+        self.messages: list[str] = []
+        self.fmu = FMU3Slave(
+            guid=description.guid, unzipDirectory=str(folder), modelIdentifier="reedvalve", instanceName=name
+        )
+        self.fmu.instantiate(loggingOn=logging, logMessage=self.log)
+
+    def log(self, environment: object, status: int, category: bytes, message: bytes) -> None:
+        self.messages.append(f"{category.decode()} {message.decode()}")
+
+    def set(self, **values: float) -> None:
+        for name, value in values.items():
+            self.fmu.setFloat64([self.reference[name.replace("__", ".")]], [value])
+
+    def get(self, *names: str) -> list[float]:
+        return self.fmu.getFloat64([self.reference[name] for name in names])
+
+    def initialize(self, **values: float) -> None:
+        self.set(**values)
+        self.fmu.enterInitializationMode(startTime=0.0)
+        self.fmu.exitInitializationMode()
+
+    def drive(self, steps: int, first: int = 0) -> bytes:
+        """Steps under pressures that go up and down; the bits of all outputs."""
+        seen = []
+        for k in range(first, first + steps):
+            self.set(p_in=2e4 * np.sin(0.1 * k) ** 2, p_in_rate=1e6)
+            self.fmu.doStep(k * STEP, STEP)
+            seen.append(self.get("displacement", "velocity", "film_force"))
+        return np.array(seen).tobytes()
+
+    def close(self) -> None:
+        self.fmu.freeInstance()
+
+
+@pytest.fixture(scope="module")
+def packed(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
+    folder = tmp_path_factory.mktemp("fmu")
+    return {model: pack(folder, deck_of(model), model) for model in MODELS}
+
+
+@pytest.fixture(scope="module")
+def unpacked(packed: dict[str, Path]) -> dict[str, Path]:
+    folders = {}
+    for model, file in packed.items():
+        folders[model] = file.with_suffix("")
+        shutil.unpack_archive(file, folders[model], "zip")
+    return folders
+
+
+@pytest.fixture
+def valve(unpacked: dict[str, Path]) -> Valve:
+    one = Valve(unpacked["squeeze"])
+    yield one
+    one.close()
+
+
+@pytest.mark.parametrize("model", MODELS)
+def test_valid(packed: dict[str, Path], model: str) -> None:
+    assert validate_fmu(str(packed[model])) == []
+
+
+def test_description(packed: dict[str, Path]) -> None:
+    """Every key that can change is there, with the deck's value, unit and range."""
+    by_name = {v.name: v for v in fmpy.read_model_description(str(packed["film_table"])).modelVariables}
+    gap = by_name["film.gap_mm"]
+    assert (gap.unit, float(gap.start), float(gap.min), gap.variability) == ("mm", 0.05, 0.0, "fixed")
+    assert {"reed.poisson_ratio", "film.mesh", "film_low", "leakage", "hydro.load"} <= set(by_name)
+    assert not {"reed.k_a", "film.k_s", "run.t_end_ms"} & set(by_name)
+
+
+@pytest.mark.parametrize("model", MODELS)
+def test_same_as_the_program(packed: dict[str, Path], model: str) -> None:
+    """Pressures are straight between the samples of the program's trace, so stepping agrees with it to ten tolerances,
+    as tests/api asks of steps of 50 us: of the largest displacement, and of that times the frequency for velocities.
+    The film's force is that of velocity and gap, and is ten times as sensitive."""
+    deck = packed[model].with_suffix(".nml")
+    folder = packed[model].parent / f"{model}_run"
+    reedvalve("run", deck, "-o", folder, "--quiet")
+    with netCDF4.Dataset(folder / "results.nc") as results:
+        names = ("displacement_mm", "velocity_mm_ms", "squeeze_n", "inlet_kpa")
+        displacement, velocity, force, inlet = (np.array(results[name][0]) for name in names)
+        time = 1e-3 * np.array(results["time_ms"][:])
+        frequency = float(results["wet_frequency_hz"][0])
+    rate = np.append(np.diff(1e3 * inlet) / np.diff(time), 0.0)
+    columns = [("time", float), ("p_in", float), ("p_in_rate", float)]
+    signals = np.array(list(zip(time, 1e3 * inlet, rate, strict=True)), dtype=columns)
+    ours = fmpy.simulate_fmu(str(packed[model]), stop_time=time[-1], output_interval=STEP, input=signals)
+    largest = 1e-3 * np.max(np.abs(displacement))
+    assert np.allclose(ours["time"], time, atol=1e-9)
+    assert np.max(np.abs(ours["displacement"] - 1e-3 * displacement)) <= 10 * RTOL * largest
+    assert np.max(np.abs(ours["velocity"] - velocity)) <= 10 * RTOL * largest * 2 * np.pi * frequency
+    assert np.max(np.abs(ours["film_force"] - force)[1:]) <= 100 * RTOL * np.max(np.abs(force))
+
+
+def test_reset_runs_the_same(valve: Valve) -> None:
+    valve.initialize(film__gap_mm=0.04)
+    first = valve.drive(40)
+    valve.fmu.reset()
+    assert valve.get("film.gap_mm") == [0.05]
+    valve.initialize(film__gap_mm=0.04)
+    assert valve.drive(40) == first
+
+
+def test_threads(unpacked: dict[str, Path]) -> None:
+    """Instances side by side do what each does alone."""
+    valves = [Valve(unpacked[model], model) for model in ("squeeze", "squeeze", "traditional", "film_table")]
+    viscosities = [0.02, 0.04, 0.06, 0.08]
+    alone = []
+    for valve, viscosity in zip(valves, viscosities, strict=True):
+        valve.initialize(fluid__viscosity_pa_s=viscosity)
+        alone.append(valve.drive(60))
+        valve.fmu.reset()
+    together = [b""] * len(valves)
+
+    def work(i: int) -> None:
+        valves[i].initialize(fluid__viscosity_pa_s=viscosities[i])
+        together[i] = valves[i].drive(60)
+
+    threads = [threading.Thread(target=work, args=(i,)) for i in range(len(valves))]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert together == alone
+    for valve in valves:
+        valve.close()
+
+
+@pytest.mark.parametrize("model", MODELS)
+def test_state(unpacked: dict[str, Path], model: str) -> None:
+    """Back to a state, in this instance, after a reset, and in another one that was never started: the same bits."""
+    valve, other = Valve(unpacked[model]), Valve(unpacked[model], "other")
+    valve.initialize(fluid__viscosity_pa_s=0.03)
+    valve.drive(7)
+    state = valve.fmu.getFMUState()
+    ahead = valve.drive(9, first=7)
+    valve.fmu.setFMUState(state)
+    assert valve.get("time") == pytest.approx([7 * STEP], rel=1e-15)
+    assert valve.drive(9, first=7) == ahead
+    valve.fmu.reset()
+    valve.fmu.setFMUState(state)
+    assert valve.drive(9, first=7) == ahead
+    kept = valve.fmu.serializeFMUState(state)
+    valve.fmu.freeFMUState(state)
+    other.fmu.setFMUState(other.fmu.deserializeFMUState(kept))
+    assert other.get("fluid.viscosity_pa_s") == [0.03]
+    assert other.drive(9, first=7) == ahead
+    valve.close()
+    other.close()
+
+
+def test_damaged_state(valve: Valve, unpacked: dict[str, Path]) -> None:
+    valve.initialize()
+    kept = bytearray(valve.fmu.serializeFMUState(valve.fmu.getFMUState()))
+    for place in (0, 9, len(kept) // 2, len(kept) - 1):
+        kept[place] ^= 1
+        with pytest.raises(Exception, match="fmi3DeserializeFMUState failed"):
+            valve.fmu.deserializeFMUState(bytes(kept))
+        kept[place] ^= 1
+    assert "no state of this FMU, or are damaged" in valve.messages[-1]
+
+
+REFUSED = [
+    (lambda v: v.set(film__gap_mm=-1.0), "film.gap_mm = -1: must be >= 0 (mm)"),
+    (lambda v: v.set(film__gap_mm=1e300), "film.gap_mm = 1e300"),
+    (lambda v: v.set(reed__thickness_mm=float("nan")), "reed.thickness_mm = NaN"),
+    (lambda v: v.set(p_in=float("inf")), "an input must be a finite number"),
+    (lambda v: v.fmu.setFloat64([4711], [1.0]), "valueReference 4711"),
+    (lambda v: v.fmu.getFloat64([4711]), "valueReference 4711"),
+    (lambda v: v.fmu.setFloat64([v.reference["displacement"]], [1.0]), "cannot be set"),
+    (lambda v: v.fmu.getInt32([v.reference["film.gap_mm"]]), "there is no such variable of this type"),
+    (lambda v: v.fmu.getBoolean([1]), "there is no variable of this type"),
+    (lambda v: v.fmu.setInt64([v.reference["film.acts"]], [3]), "film.acts has no choice number 3"),
+    (lambda v: v.fmu.setInt32([v.reference["solver.max_steps"]], [0]), "solver.max_steps = 0"),
+    (lambda v: v.fmu.doStep(0.0, STEP), "not allowed while the instance is instantiated"),
+    (lambda v: v.fmu.exitInitializationMode(), "not allowed while the instance is instantiated"),
+    (lambda v: v.fmu.enterInitializationMode(startTime=float("nan")), "startTime is not a finite number"),
+    (lambda v: v.fmu.enterInitializationMode(tolerance=2.0), "solver.rtol = 2"),
+    (lambda v: v.fmu.enterEventMode(), "no such thing"),
+    (lambda v: v.fmu.setDebugLogging(True, ["all"]), "there is no log category 'all'"),
+]
+
+
+@pytest.mark.parametrize("number", range(len(REFUSED)))
+@pytest.mark.parametrize("logging", [True, False])
+def test_refused(unpacked: dict[str, Path], number: int, logging: bool) -> None:
+    """An error with a message, even where nobody asked for messages; then reset leads on."""
+    call, words = REFUSED[number]
+    valve = Valve(unpacked["squeeze"], logging=logging)
+    with pytest.raises(Exception, match="status 3"):
+        call(valve)
+    assert words in valve.messages[-1] and valve.messages[-1].startswith("logStatusError valve: fmi3")
+    valve.fmu.reset()
+    valve.initialize()
+    valve.drive(1)
+    valve.close()
+
+
+def test_refused_step(valve: Valve) -> None:
+    valve.initialize()
+    valve.drive(3)
+    state = valve.fmu.getFMUState()
+    for point, length, words in [
+        (0.0, STEP, "time must not go backwards"),
+        (1.0, STEP, "time must not jump"),
+        (3 * STEP, 0.0, "longer than 0"),
+        (3 * STEP, -STEP, "longer than 0"),
+        (3 * STEP, 1e-300, "time must go on"),
+        (3 * STEP, float("nan"), "finite"),
+    ]:
+        with pytest.raises(Exception, match="fmi3DoStep failed with status 3"):
+            valve.fmu.doStep(point, length)
+        assert words in valve.messages[-1]
+        valve.fmu.setFMUState(state)
+    with pytest.raises(Exception, match="status 3"):
+        valve.set(film__gap_mm=0.04)
+    assert "film.gap_mm is fixed when initialization mode is over" in valve.messages[-1]
+    with pytest.raises(Exception, match="status 3"):
+        valve.fmu.doStep(3 * STEP, STEP)
+    assert "while the instance is terminated" in valve.messages[-1]
+    valve.fmu.setFMUState(state)
+    valve.drive(1, first=3)
+    valve.fmu.terminate()
+    with pytest.raises(Exception, match="status 3"):
+        valve.fmu.doStep(4 * STEP, STEP)
+
+
+def test_freed_twice(valve: Valve, unpacked: dict[str, Path]) -> None:
+    """While another instance keeps the library loaded, which FMPy would else unload."""
+    freed = Valve(unpacked["squeeze"])
+    stale = ctypes.c_void_p(freed.fmu.component)
+    freed.close()
+    valve.fmu.dll.fmi3FreeInstance(stale)
+    assert valve.fmu.dll.fmi3Terminate(stale) == 3
+    valve.initialize()
+
+
+def test_other_interfaces(unpacked: dict[str, Path]) -> None:
+    """Model exchange, a wrong token, missing resources and a missing name: no instance, and a message."""
+    valve = Valve(unpacked["squeeze"])
+    log = fmi3LogMessageCallback(valve.log)
+    resources = str(unpacked["squeeze"] / "resources").encode()
+    make = valve.fmu.dll.fmi3InstantiateCoSimulation
+    token = valve.fmu.guid.encode()
+    for name, given, place, words in [
+        (b"valve", b"{other}", resources, "the instantiation token is {other}"),
+        (b"valve", token, b"/no/where", "cannot read '/no/where/valve.nml'"),
+        (b"valve", token, None, "the path of the FMU's resources is missing"),
+        (b" ", token, resources, "the instance needs a name"),
+    ]:
+        no_update = fmpy.fmi3.fmi3IntermediateUpdateCallback()
+        assert not make(name, given, place, False, False, False, False, None, 0, None, log, no_update)
+        assert words in valve.messages[-1]
+    assert not valve.fmu.fmi3InstantiateModelExchange(b"valve", token, resources, False, False, None, log)
+    assert "for co-simulation only" in valve.messages[-1]
+    valve.close()
+
+
+def test_outputs_at_the_start(unpacked: dict[str, Path]) -> None:
+    """At rest nothing has moved; from equilibrium the reed stands where its pressures hold it, and stays there."""
+    valve = Valve(unpacked["squeeze"])
+    valve.set(p_in=2e4)
+    valve.fmu.enterInitializationMode()
+    assert valve.get("displacement", "velocity") == [0.0, 0.0]
+    valve.fmu.setInt64([valve.reference["run.start"]], [2])
+    start = valve.get("displacement")[0]
+    valve.fmu.exitInitializationMode()
+    valve.fmu.doStep(0.0, 1e-3)
+    assert start > 5e-5 and abs(valve.get("displacement")[0] - start) < 10 * RTOL * start
+    valve.close()
+
+
+def test_library(unpacked: dict[str, Path]) -> None:
+    """It exports FMI's functions and no other, and stands on the C library and what lies beside it."""
+    folder = next((unpacked["squeeze"] / "binaries").iterdir())
+    words = subprocess.run(["nm", "-D", "--defined-only", folder / "reedvalve.so"], capture_output=True, text=True)
+    names = {line.split()[2] for line in words.stdout.splitlines()}
+    header = next(Path(fmpy.__file__).parent.glob("c-code/fmi3Functions.h")).read_text()
+    declared = {line.split()[-1].strip(";") for line in header.splitlines() if line.startswith("FMI3_Export")}
+    assert names == declared and len(names) > 70
+    words = subprocess.run(["ldd", "-r", folder / "reedvalve.so"], capture_output=True, text=True, env={})
+    assert "undefined symbol" not in words.stdout + words.stderr
+    for line in words.stdout.splitlines():
+        name = line.split()[0]
+        if name.startswith(("libgfortran", "libquadmath", "libgomp")):
+            assert str(folder) in line
+        else:
+            assert name.split("/")[-1].split(".")[0].startswith(("linux-vdso", "libc", "libm", "libgcc_s", "ld-linux"))
+
+
+def test_packing(tmp_path: Path) -> None:
+    """The same bytes from the same deck; nothing is replaced or left behind unasked."""
+    deck = tmp_path / "my.nml"
+    deck.write_text("&run title = 'a & \"b\" <c>' /")
+    said = reedvalve("fmu", deck, "-o", tmp_path / "my.fmu")
+    assert said.endswith("my.fmu: 4 inputs, 3 outputs, 21 parameters.\n")
+    assert "already" in reedvalve("fmu", deck, "-o", tmp_path / "my.fmu", status=2)
+    reedvalve("fmu", deck, "-o", tmp_path / "again.fmu")
+    reedvalve("fmu", deck, "-o", tmp_path / "my.fmu", "--force")
+    assert (tmp_path / "my.fmu").read_bytes() == (tmp_path / "again.fmu").read_bytes()
+    assert validate_fmu(str(tmp_path / "my.fmu")) == []
+    deck.write_text("&run model = 'squeeze', 'film' /\n&sweep key = 'film.gap_mm', values = 0.1, 0.2 /")
+    assert "an FMU is one case, these are 4" in reedvalve("fmu", deck, status=2)
+    deck.write_text("&film gap_mm = -0.05 /")
+    assert "must be >= 0" in reedvalve("fmu", deck, status=2)
+    assert "there is no such file" in reedvalve("fmu", tmp_path / "none.nml", status=3)
+    deck.write_text("&film gap_mm = 0.05 /")
+    assert "No such file" in reedvalve("fmu", deck, "-o", tmp_path / "no" / "my.fmu", status=3)
+    assert sorted(p.name for p in tmp_path.iterdir()) == ["again.fmu", "my.fmu", "my.nml"]
+
+
+def test_trace(tmp_path: Path) -> None:
+    """A deck with a measured trace takes it along, and starts from equilibrium."""
+    (tmp_path / "p.csv").write_text("t_ms,p_diff_kpa\n0,5\n1,20\n2,20\n3,0\n")
+    file = pack(tmp_path, "&pressure kind = 'trace', file = 'p.csv', event_ms = 2.0 /")
+    assert validate_fmu(str(file)) == []
+    assert "resources/trace.csv" in zipfile.ZipFile(file).namelist()
+    (tmp_path / "p.csv").unlink()
+    result = fmpy.simulate_fmu(str(file), stop_time=1e-3, output_interval=1e-4, start_values={"p_in": 5e3})
+    assert abs(result["displacement"][-1] / result["displacement"][0] - 1) < 1e-5
+
+
+PAGE = (HERE.parents[1] / "docs" / "fmu.md").read_text()
+
+
+def test_page(tmp_path: Path) -> None:
+    """The examples of the page say what is printed below them."""
+    commands = re.search(r"```\n(\$.*?)```", PAGE, re.S).group(1).splitlines()
+    said = []
+    for line in commands:
+        if line.startswith("$ "):
+            where = {"PATH": f"{PROGRAM.parent}:{os.environ['PATH']}"}
+            done = subprocess.run(line[2:], shell=True, cwd=tmp_path, env=where, capture_output=True, text=True)
+            said += [line, *done.stdout.splitlines()]
+    assert said == commands
+    python, text = re.search(r"```python\n(.*?)```\n\n```text\n(.*?)```", PAGE, re.S).groups()
+    done = subprocess.run([sys.executable, "-c", python], cwd=tmp_path, capture_output=True, text=True)
+    assert done.stdout == text, done.stderr
+
+
+def test_page_of_variables(packed: dict[str, Path]) -> None:
+    """The page's table is made of the model descriptions."""
+    rows: dict[int, list[str]] = {}
+    models: dict[int, list[str]] = {}
+    for model, file in packed.items():
+        for v in fmpy.read_model_description(str(file)).modelVariables:
+            if v.causality == "independent":
+                continue
+            unit = v.unit or ""
+            if v.declaredType is not None:
+                unit = "one of " + ", ".join(item.name for item in v.declaredType.items)
+            rows[int(v.valueReference)] = [f"`{v.name}`", v.causality, unit, v.description]
+            models.setdefault(int(v.valueReference), []).append(model)
+    lines = ["| variable | | unit | meaning | models |", "|---|---|---|---|---|"]
+    for reference in sorted(rows):
+        which = "all" if len(models[reference]) == len(MODELS) else ", ".join(models[reference])
+        lines.append(f"| {' | '.join(rows[reference])} | {which} |")
+    table = "\n".join(lines)
+    assert f"\n\n{table}\n\n" in PAGE, f"docs/fmu.md must have this table:\n{table}"
+
+
+def run_cosine(folder: Path, step: float, has_slopes: bool) -> np.ndarray:
+    """Displacements every 0.2 ms under a pressure from 0 to 20 kPa and back in 2 ms."""
+    valve = Valve(folder)
+    valve.initialize(solver__rtol=1e-8)
+    seen = []
+    for k in range(round(4e-3 / step)):
+        start, end = (1e4 * (1 - np.cos(np.pi * 1e3 * step * i)) for i in (k, k + 1))
+        valve.set(p_in=start, p_in_rate=(end - start) / step if has_slopes else 0.0)
+        valve.fmu.doStep(k * step, step)
+        if (k + 1) % round(2e-4 / step) == 0:
+            seen += valve.get("displacement")
+    valve.close()
+    return np.array(seen)
+
+
+def test_page_of_steps(unpacked: dict[str, Path]) -> None:
+    """The page's errors, which fall with the first and the second order. The reference's own is 1e-6 of the motion."""
+    reference = run_cosine(unpacked["squeeze"], 2e-6, True)
+    rows = re.findall(r"\| (\d+) us \| (\S+) \| (\S+) \|", PAGE)
+    assert len(rows) == 5
+    for step, *errors in rows:
+        for printed, has_slopes in zip(errors, (False, True), strict=True):
+            error = run_cosine(unpacked["squeeze"], 1e-6 * float(step), has_slopes) - reference
+            assert np.max(np.abs(error)) / np.max(np.abs(reference)) == pytest.approx(float(printed), rel=0.05)
