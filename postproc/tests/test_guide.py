@@ -51,7 +51,7 @@ def test_design(tmp_path):
 
 
 def test_measured_pressures(tmp_path):
-    """The trace falls, and the reed closes before it ends: nothing to warn of, no measure missing that could be there."""
+    """The trace falls, and the reed closes before it ends: nothing to warn of, no time missing."""
     at = place("kind = 'trace'")
     (tmp_path / "t.nml").write_text(BLOCKS[at][1], encoding="utf-8")
     (tmp_path / "p.csv").write_text(BLOCKS[at + 1][1], encoding="utf-8")
