@@ -6,7 +6,7 @@ demo := results/demo
 # Matplotlib keeps its font list here, not in the home folder, which need not exist.
 export MPLCONFIGDIR := $(abspath build/matplotlib)
 
-.PHONY: help demo test test-programs test-python build deb bench lint format bootstrap checks clean
+.PHONY: help demo test test-programs test-python wheel-test build deb bench lint format bootstrap checks clean
 help:
 	@echo "make demo      run the paper's cases, compare with its tables, write a report"
 	@echo "make test      build, then run all tests"
@@ -16,6 +16,7 @@ help:
 	@echo "make lint      check format and style of the sources; make format puts them right"
 	@echo "make debug-test, sanitize-test, valgrind-test    the tests in builds with more checks"
 	@echo "make deb-test  the packages in a Debian of their own"
+	@echo "make wheel-test    the Python package as pip installs it, in an environment of its own"
 	@echo "make clean     remove build/ and results/"
 
 bootstrap:
@@ -48,6 +49,9 @@ test-programs:
 	@ctest --preset release
 test-python:
 	@REEDVALVE=$(abspath $(reedvalve)) $(venv)/python -m pytest -q postproc drivers/benchmarks drivers/python drivers/fmu
+
+wheel-test: bootstrap
+	@drivers/python/tests/wheel.sh
 
 %-test: checks build-%
 	ctest --preset $*

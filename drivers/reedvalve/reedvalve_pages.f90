@@ -7,13 +7,13 @@ program reedvalve_pages
 
    call get_command_argument(1, page)
    select case (page)
-   case ("man")
-      call print_manual()
    case ("bash")
       call print_bash()
    case ("zsh")
       call print_zsh()
    case ("fish")
       call print_fish()
+   case default
+      call print_manual()
    end select
 end program reedvalve_pages

@@ -17,7 +17,7 @@ module paper_film
    use paper_valve, only : mm, wave_40ms
    implicit none
    private
-   public :: paper_form, paper_reed, paper_case, rigid_film, run_film, run_table, scatter
+   public :: paper_form, paper_reed, build_paper_table, paper_case, rigid_film, run_film, run_table, scatter
 
    type(fluid_type), parameter, public :: oil = fluid_type(density=875.0_wp, viscosity=0.0484_wp)
    real(wp), parameter, public :: nu = 0.3_wp                  !! Poisson's ratio [-]
@@ -52,6 +52,18 @@ contains
       call new_film_reed(reed, 2.5_wp*mm, 4.0_wp*mm, 1.0_wp*mm, 6.0_wp*mm, nu, modes, beta, error, n*[6, 4, 2], n*3)
       if (allocated(error)) error stop "the paper's reed is refused"
    end function paper_reed
+
+   !> The planform with one shape, and its film's table for a gap [m].
+   subroutine build_paper_table(reed, table, gap, elongation)
+      type(film_reed), intent(out) :: reed
+      type(film_table), intent(out) :: table
+      real(wp), intent(in) :: gap, elongation
+      type(error_type), allocatable :: error
+
+      reed = paper_reed(1, elongation)
+      call new_film_table(table, reed, gap, error)
+      if (allocated(error)) error stop "the paper's film table is refused"
+   end subroutine build_paper_table
 
    !> One case on it: gap [m], inlet pressure [Pa].
    function paper_case(reed, gap, inlet, load) result(valve)

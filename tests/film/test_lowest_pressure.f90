@@ -6,14 +6,14 @@ program test_lowest_pressure
    use rv_error, only : error_type
    use rv_film_lanes, only : film_traces
    use rv_film_reed, only : film_reed
-   use rv_film_table, only : film_table, new_film_table
+   use rv_film_table, only : film_table
    use rv_film_valve, only : film_valve
    use rv_lanes, only : lane_outcome, lane_settings
    use rv_reynolds, only : film_state
    use rv_table_lanes, only : new_table_lanes, table_lanes
    use rv_text, only : to_text
    use check, only : suite_type
-   use paper_film, only : no_times, paper_case, paper_reed, run_film, run_table
+   use paper_film, only : build_paper_table, no_times, paper_case, paper_reed, run_film, run_table
    use paper_valve, only : kpa, mm
    implicit none
    type(suite_type) :: suite
@@ -32,17 +32,6 @@ program test_lowest_pressure
    call suite%finish()
 
 contains
-
-   subroutine build(reed, table, elongation)
-      type(film_reed), intent(out) :: reed
-      type(film_table), intent(out) :: table
-      real(wp), intent(in) :: elongation
-      type(error_type), allocatable :: error
-
-      reed = paper_reed(1, elongation)
-      call new_film_table(table, reed, gap, error)
-      if (allocated(error)) error stop "the paper's film table is refused"
-   end subroutine build
 
    !> Worst of all shares at one x; pressure difference and suction make one pascal, `error` is in parts of it.
    function worst_error(reed, table, x) result(worst)
@@ -72,7 +61,7 @@ contains
       real(wp) :: off, worst, worst_at_work
       integer :: i
 
-      call build(reed, table, elongation)
+      call build_paper_table(reed, table, gap, elongation)
       worst = 0.0_wp
       worst_at_work = 0.0_wp
       do i = 20*first, 20*last
@@ -93,7 +82,7 @@ contains
       real(wp) :: x, off(2)
       integer :: i
 
-      call build(reed, table, 0.65_wp)
+      call build_paper_table(reed, table, gap, 0.65_wp)
       off = 0.0_wp
       do i = 4*first, 4*last - 1
          x = 2.0_wp**floor(0.25_wp*real(i, wp))*(1.0_wp + 0.25_wp*real(modulo(i, 4), wp))
@@ -111,7 +100,7 @@ contains
       type(film_table) :: table
       real(wp), parameter :: x(3) = [0.1_wp, 1.1_wp, 7.0_wp]
 
-      call build(reed, table, 0.0_wp)
+      call build_paper_table(reed, table, gap, 0.0_wp)
       call suite%close("at rest, more pressure inside [Pa]", maxval(abs(table%lowest_pressure(x, 20.0_wp*kpa, 0.0_wp))), &
          & 0.0_wp, 0.0_wp, 1.0e-10_wp)
       call suite%close("closing [Pa]", maxval(abs(table%lowest_pressure(x, 20.0_wp*kpa, -1.0_wp))), 0.0_wp, 0.0_wp, 1.0e-10_wp)
@@ -126,7 +115,7 @@ contains
       type(film_table) :: table
       real(wp) :: nan, lower, upper
 
-      call build(reed, table, 0.0_wp)
+      call build_paper_table(reed, table, gap, 0.0_wp)
       nan = ieee_value(1.0_wp, ieee_quiet_nan)
       lower = table%lowest_pressure(table%lowest, kpa, 0.1_wp)
       upper = table%lowest_pressure(2.0_wp**last, kpa, 0.1_wp)
@@ -148,7 +137,7 @@ contains
       real(wp) :: value(film_traces), force, rate, untouched
       real(wp), parameter :: q(1) = 0.7_wp*gap, v(1) = 0.3_wp, still(1) = 0.0_wp
 
-      call build(reed, table, 0.0_wp)
+      call build_paper_table(reed, table, gap, 0.0_wp)
       do k = 1, 3
          valve(k) = paper_case(reed, gap*real(k, wp), 10.0_wp*kpa*real(k, wp))
          valve(k)%outlet = kpa*real(k, wp)

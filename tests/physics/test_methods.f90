@@ -1,4 +1,4 @@
-!> The explicit method: its order, its agreement with the implicit one, and how `auto` chooses between the two.
+!> The explicit method: its agreement with the implicit one, and how `auto` chooses between the two.
 program test_methods
    use rv_kinds, only : wp
    use rv_lanes, only : lane_outcome, lane_settings, method_auto, method_explicit, method_implicit
@@ -11,7 +11,6 @@ program test_methods
    real(wp), parameter :: k_s = 0.0075_wp
    real(wp) :: no_times(0)
 
-   call order()
    call agreement(1.0e-4_wp)
    call agreement(1.0e-7_wp)
    call choice()
@@ -20,35 +19,6 @@ program test_methods
    call suite%finish()
 
 contains
-
-   !> Halving the step divides the error by 2^5, where the film acts both ways and the corners lie on the grid.
-   subroutine order()
-      real(wp) :: e(3), fine
-      integer :: i
-
-      fine = displacement(2.5e-3_wp*ms)
-      do i = 1, 3
-         e(i) = abs(displacement(0.05_wp*ms/2.0_wp**i) - fine)
-      end do
-      call suite%close("observed order, first halving", log(e(1)/e(2))/log(2.0_wp), 5.0_wp, 0.0_wp, 0.5_wp)
-      call suite%close("observed order, second halving", log(e(2)/e(3))/log(2.0_wp), 5.0_wp, 0.0_wp, 0.5_wp)
-   end subroutine order
-
-   !> Displacement in mid closing, with fixed steps.
-   real(wp) function displacement(step) result(u)
-      real(wp), intent(in) :: step
-      type(lane_outcome) :: outcome
-      type(lane_settings) :: settings
-      type(lumped_valve) :: valve(1)
-
-      settings%t_end = 20.25_wp*ms
-      settings%fixed_step = step
-      settings%method = method_explicit
-      valve = valve_at(20.0_wp*kpa, 0.1_wp*mm, k_s)
-      valve%both_ways = .true.
-      call run_lumped(valve, wave_40ms(), settings, [settings%t_end], outcome)
-      u = outcome%trace(1, 1, 1)
-   end function displacement
 
    !> Both methods, from gaps that are stiff to gaps that are not: no further apart than some tolerances.
    subroutine agreement(rtol)

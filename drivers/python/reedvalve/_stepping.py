@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ctypes
 import numbers
-from typing import Union
+from typing import Any, Union
 
 import numpy as np
 from numpy.typing import NDArray
@@ -58,7 +58,7 @@ class Stepping(Settings):
         """Whether stepping was begun since the last setting."""
         dofs = ctypes.c_int()
         with self._lock:
-            return LIB.rv_valve_dofs(self._handle, ctypes.byref(dofs)) == 0
+            return bool(LIB.rv_valve_dofs(self._handle, ctypes.byref(dofs)) == 0)
 
     @property
     def time(self) -> float:
@@ -156,10 +156,10 @@ class Stepping(Settings):
 
 def _pair(pressure: Pressure) -> tuple[float, float]:
     """Pressures at the start and at the end of a step."""
+    given: Any = pressure
     try:
-        if isinstance(pressure, numbers.Real) or np.ndim(pressure) == 0:
-            return float(pressure), float(pressure)
-        start, end = pressure
+        is_one = isinstance(given, numbers.Real) or np.ndim(given) == 0
+        start, end = (given, given) if is_one else given
         return float(start), float(end)
     except (TypeError, ValueError):
         raise BadInputError(f"a pressure is a number or a pair of numbers, not {pressure!r:.60}") from None

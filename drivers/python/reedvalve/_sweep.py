@@ -107,7 +107,7 @@ class SweepResult(dict[str, NDArray[Any]]):
     @property
     def ok(self) -> NDArray[np.bool_]:
         """Which cases came to their end."""
-        return self["status"] == Status.OK.word
+        return np.asarray(self["status"] == Status.OK.word)
 
     def grid(self, name: str) -> NDArray[Any]:
         """A column in the sweep's shape."""

@@ -139,7 +139,7 @@ def _rebuilt(kind: type[Valve], settings: dict[str, Value], state: tuple[float, 
     """A valve from its settings and state."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", ReedvalveWarning)  # they were told when the settings were made
-        valve = kind(**settings)
+        valve = kind(None, **settings)
         if state is not None:
             valve.begin(state[0])
             valve.restore(state[1])

@@ -103,17 +103,18 @@ def test_examples_of_docstrings(name: str) -> None:
     assert result.failed == 0
 
 
-def import_with(library: str) -> subprocess.CompletedProcess[str]:
-    """Import the package in a new interpreter with REEDVALVE_LIBRARY set."""
+def import_with(**names: object) -> subprocess.CompletedProcess[str]:
+    """Import the package in a new interpreter with these variables of the environment."""
     words = [sys.executable, "-B", "-c", "import reedvalve; print(reedvalve.__version__)"]
-    names = {"REEDVALVE_LIBRARY": library, "PYTHONPATH": str(Path(rv.__file__).parents[1])}
-    return subprocess.run(words, env=names, capture_output=True, text=True)
+    env = {"PYTHONPATH": str(Path(rv.__file__).parents[1]), **{name: str(value) for name, value in names.items()}}
+    return subprocess.run(words, env=env, capture_output=True, text=True)
 
 
 def test_library_is_named(tmp_path: Path) -> None:
-    """REEDVALVE_LIBRARY says which; without a library the import says what was tried."""
-    assert import_with(str(LIBRARY)).stdout == f"{rv.__version__}\n"
-    missing = import_with(str(tmp_path / "none.so"))
+    """REEDVALVE_LIBRARY says which, else it is an installed one; without any the import says what was tried."""
+    assert import_with(REEDVALVE_LIBRARY=LIBRARY).stdout == f"{rv.__version__}\n"
+    assert import_with(LD_LIBRARY_PATH=LIBRARY.parent).stdout == f"{rv.__version__}\n"
+    missing = import_with(REEDVALVE_LIBRARY=tmp_path / "none.so")
     if missing.returncode != 0:  # else one is installed on this machine
         assert "the library of reedvalve cannot be loaded; REEDVALVE_LIBRARY may name it:" in missing.stderr
         assert "none.so: cannot open shared object file" in missing.stderr

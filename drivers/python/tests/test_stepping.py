@@ -6,6 +6,7 @@ import gc
 import math
 import pickle
 import resource
+import sys
 import threading
 import tracemalloc
 
@@ -155,19 +156,24 @@ def test_valves_in_threads() -> None:
 
 
 def test_one_valve_in_threads() -> None:
-    """Calls wait for each other: messages and results are not mixed."""
+    """Calls wait for each other: no message and no result is another thread's."""
     valve = rv.Valve()
     expected = valve.run().closing_ms
 
     def work(i: int) -> None:
-        for _ in range(20):
-            if i % 2:
+        for _ in range(300):
+            if i == 3:
                 assert valve.run().closing_ms == expected
             else:
                 with pytest.raises(rv.BadInputError, match=f"film.gap_mm = -{i + 1}:"):
                     valve["film.gap_mm"] = -i - 1.0
 
-    in_threads(4, work)
+    interval = sys.getswitchinterval()
+    sys.setswitchinterval(1e-6)  # threads change within calls
+    try:
+        in_threads(4, work)
+    finally:
+        sys.setswitchinterval(interval)
 
 
 def test_lock_of_the_interpreter_is_free_meanwhile() -> None:

@@ -1,0 +1,80 @@
+"""The user guide's examples, run as printed; the program is found through the environment variable REEDVALVE."""
+
+from __future__ import annotations
+
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+BLOCKS = re.findall(r"^```(\w*)\n(.*?)^```$", (ROOT / "docs" / "guide.md").read_text("utf-8"), re.DOTALL | re.MULTILINE)
+PROGRAM = os.environ.get("REEDVALVE")
+pytestmark = pytest.mark.skipif(not PROGRAM, reason="REEDVALVE, the path of the reedvalve program, is not set")
+
+
+def place(words):
+    """Where the block is that has these words in it."""
+    return next(i for i, (_, text) in enumerate(BLOCKS) if words in text)
+
+
+def shell(line, folder):
+    """One line of the guide, with the names it says they stand for."""
+    (folder / "inputs").is_symlink() or (folder / "inputs").symlink_to(ROOT / "inputs")
+    names = f'reedvalve() {{ "{PROGRAM}" "$@"; }}; python() {{ "{sys.executable}" "$@"; }}\n'
+    return subprocess.run(["sh", "-euc", names + line], cwd=folder, check=True, capture_output=True, text=True)
+
+
+def told(text, folder):
+    """What a Python block prints."""
+    done = subprocess.run([sys.executable, "-c", text], cwd=folder, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    return done.stdout
+
+
+def test_first_deck_and_its_table(tmp_path):
+    at = place("A stiffer reed")
+    (tmp_path / "my.nml").write_text(BLOCKS[at][1], encoding="utf-8")
+    shell("reedvalve run my.nml --quiet", tmp_path)
+    at = place("import pandas")
+    assert told(BLOCKS[at][1], tmp_path) == BLOCKS[at + 1][1]
+
+
+def test_design(tmp_path):
+    at = place("&design file")
+    (tmp_path / "d.nml").write_text(BLOCKS[at][1], encoding="utf-8")
+    (tmp_path / "plan.csv").write_text(BLOCKS[at + 1][1], encoding="utf-8")
+    assert shell("reedvalve check d.nml", tmp_path).stdout == "d.nml is fine: 3 cases.\n"
+
+
+def test_measured_pressures(tmp_path):
+    """The trace falls, and the reed closes before it ends: nothing to warn of, no time missing."""
+    at = place("kind = 'trace'")
+    (tmp_path / "t.nml").write_text(BLOCKS[at][1], encoding="utf-8")
+    (tmp_path / "p.csv").write_text(BLOCKS[at + 1][1], encoding="utf-8")
+    assert shell("reedvalve run t.nml", tmp_path).stderr == ""
+    row = dict(
+        zip(*(line.split(",") for line in (tmp_path / "t" / "summary.csv").read_text().splitlines()), strict=True)
+    )
+    assert 1.0 < float(row["fall_ms"]) < float(row["closing_ms"]) < 5.5
+
+
+def test_histories(tmp_path):
+    at = place("inputs/response.nml -o")
+    shell(BLOCKS[at][1], tmp_path)
+    words = told(
+        BLOCKS[at + 1][1].replace("import xarray", "import matplotlib; matplotlib.use('Agg')\nimport xarray"), tmp_path
+    )
+    first, statuses, *deck = words.splitlines()
+    assert re.fullmatch(r"0\.\d+ mm", first) and set(eval(statuses)) == {"ok"} and "&reed" in "".join(deck)
+
+
+def test_fields(tmp_path):
+    at = place("inputs/film_fields.nml -o")
+    shell(BLOCKS[at][1], tmp_path)
+    assert told(BLOCKS[at + 1][1], tmp_path) == BLOCKS[at + 2][1]
+    shell(BLOCKS[at + 3][1].splitlines()[0], tmp_path)
+    assert (tmp_path / "fields" / "vtk" / "case_0001.pvd").is_file()
