@@ -21,7 +21,7 @@ program test_sweep
       end subroutine api_codes
    end interface
 
-   integer, parameter :: n = 1500   !! cases: three blocks, the last one shorter
+   integer, parameter :: n = 4500   !! cases: three blocks, the last one shorter
    type(suite_type) :: suite
    character(kind=c_char, len=24), target :: name(2) = [character(len=24) :: "film.gap_mm"//c_null_char, &
       & "pressure.inlet_kpa"//c_null_char]
