@@ -24,7 +24,7 @@ module reedvalve
    integer, parameter, public :: rv_io = 2              !! a file could not be read
    integer, parameter, public :: rv_not_converged = 3   !! the integration gave up
    integer, parameter, public :: rv_domain = 4          !! the state left the model's domain: film closed, not a number
-   integer, parameter, public :: rv_internal = 5        !! a fault of the library, or no memory
+   integer, parameter, public :: rv_internal = 5        !! no memory, or a fault of the library
 
    ! How a case ended
    integer, parameter, public :: rv_case_ok = 0, rv_case_step_too_small = 1, rv_case_film_closed = 2, &

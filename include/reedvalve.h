@@ -9,8 +9,9 @@
  *    most 4096 bytes; those that are given back are cut to fit into the buffer of `size` bytes.
  * Units. Keys have the unit of decks, which their name ends in (film.gap_mm). Measures and traces have the unit their
  *    name ends in, too, as in summary.csv. Times, pressures, states and outputs of stepping are in SI: s, Pa, m, m/s, N,
- *    m3/s. What is not known or did not happen is NaN.
- * Threads. Different valves may be used by different threads at once. One valve is for one thread at a time. */
+ *    m3/s. What is not known or did not happen is NaN; so is a number that a call failed to tell.
+ * Threads. Different valves may be used by different threads at once. One valve is for one thread at a time. A process
+ *    that was forked from one whose sweeps ran on several threads runs its own on one. */
 #ifndef REEDVALVE_H
 #define REEDVALVE_H
 
@@ -28,7 +29,7 @@ enum rv_code {
   RV_IO = 2,            /* a file could not be read */
   RV_NOT_CONVERGED = 3, /* the integration gave up */
   RV_DOMAIN = 4,        /* the state left the model's domain: film closed, or not a number */
-  RV_INTERNAL = 5       /* a fault of the library */
+  RV_INTERNAL = 5       /* no memory, or a fault of the library */
 };
 
 /* How a case ended. */
@@ -136,7 +137,8 @@ int rv_trace_unit(int i, char *buffer, size_t size);
 /* Run n_cases cases that differ from the valve's settings in n_keys real keys. Key k of case c is
  * values[c*n_keys + k]; measure m of case c comes to measures[c*rv_measure_count() + m], its rv_case to status[c].
  * Cases that fail do not make the call fail; a value that is not allowed does, before any case is run. `threads` 0: as
- * many as OpenMP offers; their number does not change a bit of the results. */
+ * many as OpenMP offers; no more are used than can work at once, and their number does not change a bit of the results.
+ * Without memory for so many cases the call is RV_INTERNAL and runs none, as is rv_valve_run without it for its traces. */
 int rv_sweep(rv_valve *self, int n_keys, const char *const *keys, size_t n_cases, const double *values, double *measures,
              int *status, int threads);
 

@@ -328,6 +328,28 @@ def test_outputs_at_the_start(unpacked: dict[str, Path]) -> None:
     valve.close()
 
 
+def test_another_importer(packed: dict[str, Path]) -> None:
+    """Ecos, an importer in C++ with its own reader of FMUs, computes what FMPy does."""
+    try:
+        from ecospy import EcosParameterSet, EcosSimulation, EcosSimulationStructure
+    except (ImportError, OSError) as missing:
+        pytest.skip(f"Ecos cannot be loaded: {missing}")
+    start = {"film.gap_mm": 0.04, "p_in": 2e4}
+    structure, parameters = EcosSimulationStructure(), EcosParameterSet.EcosParameterSet()
+    structure.add_model("valve", str(packed["film_table"]))
+    for name, value in start.items():
+        parameters.add_real(f"valve::{name}", value)
+    structure.add_parameter_set("start", parameters)
+    simulation = EcosSimulation(structure=structure, step_size=STEP)
+    simulation.init(parameter_set="start")
+    simulation.step(40)
+    ours = fmpy.simulate_fmu(str(packed["film_table"]), stop_time=40 * STEP, output_interval=STEP, start_values=start)
+    for name in ("displacement", "velocity", "film_low", "part_c_force"):
+        assert simulation.get_real(f"valve::{name}") == pytest.approx(ours[name][-1], rel=1e-9)
+    simulation.terminate()
+    simulation.free()
+
+
 def test_library(unpacked: dict[str, Path]) -> None:
     """It exports FMI's functions and no other, and stands on the C library and what lies beside it."""
     folder = next((unpacked["squeeze"] / "binaries").iterdir())

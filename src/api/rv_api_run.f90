@@ -1,26 +1,23 @@
-!> C API: whole cases, their measures and traces, and sweeps of many cases. See reedvalve.h.
+!> C API: whole cases, their measures, facts and traces. See reedvalve.h.
 module rv_api_run
    use, intrinsic :: iso_c_binding, only : c_associated, c_double, c_f_pointer, c_int, c_ptr, c_size_t
    use rv_kinds, only : wp, i8
-   use omp_lib, only : omp_get_max_threads, omp_get_thread_num
    use rv_error, only : error_type, rv_bad_input
-   use rv_api_call, only : begin_call, refuse, settle, code_of_status, put_number, rv_ok, no_pointer, no_text
-   use rv_block, only : block_bounds, block_count, block_result, run_block, trace_times, n_facts, n_measures, &
+   use rv_api_call, only : begin_call, refuse, settle, need_memory, code_of_status, put_number, put_nan, rv_ok, &
+      & no_pointer, no_text
+   use rv_block, only : block_result, run_block, trace_times, trace_count, n_facts, n_measures, &
       & n_traces, column_type, fact_columns, measure_columns, trace_columns
    use rv_c_text, only : give_text, take_text
    use rv_deck, only : deck_type
-   use rv_film_case, only : planform_cache
    use rv_handles, only : valve_type
-   use rv_text, only : text_type, to_text
+   use rv_keys, only : key_run_trace_dt_ms, key_run_traces
+   use rv_text, only : to_text
    implicit none
    private
    public :: rv_valve_run, rv_valve_status, rv_valve_measure, rv_measure_count, rv_measure_name, rv_measure_unit
    public :: rv_valve_fact, rv_fact_count, rv_fact_name, rv_fact_unit
    public :: rv_valve_trace_size, rv_valve_trace_times, rv_valve_trace, rv_trace_count, rv_trace_name, rv_trace_unit
-   public :: rv_sweep
 
-   integer, parameter :: most_threads = 1024
-   integer(c_size_t), parameter :: most_cases = 2000000000_c_size_t
    character(len=*), parameter :: not_run = "there are no results: run the valve first, after all settings"
 
 contains
@@ -37,6 +34,7 @@ contains
       !$omp critical (rv_api_text)
       call valve%setup%check(warnings, error)
       !$omp end critical (rv_api_text)
+      if (.not. allocated(error)) call need_memory(trace_bytes(valve%setup%ready), error)
       call settle(valve, error, code)
       if (allocated(error)) return
       valve%time = trace_times(valve%setup%ready)
@@ -45,6 +43,17 @@ contains
       valve%message = warnings//valve%result%message(1)%s
       code = code_of_status(valve%result%status(1))
    end function rv_valve_run
+
+   !> Memory for the traces of a run: samples of the integration and of the result, and times, with copies on their way.
+   integer(i8) function trace_bytes(deck) result(bytes)
+      type(deck_type), intent(in) :: deck
+      real(wp) :: start, finish
+
+      bytes = 0
+      if (nint(deck%value(key_run_traces)) == 0) return
+      call deck%time_span(start, finish)
+      bytes = 8_i8*(4*trace_count(deck) + 4)*nint((finish - start)/deck%value(key_run_trace_dt_ms) + 1.0_wp, i8)
+   end function trace_bytes
 
    integer(c_int) function rv_valve_status(self, status) result(code) bind(C)
       type(c_ptr), value :: self, status
@@ -61,6 +70,7 @@ contains
       type(c_ptr), value :: self, name, value
       type(valve_type), pointer :: valve
 
+      call put_nan(value)
       call begin_results(self, value, valve, code)
       if (code == rv_ok) call give_number(valve, measure_columns(), valve%result%measure(:, 1), name, value, code)
    end function rv_valve_measure
@@ -69,6 +79,7 @@ contains
       type(c_ptr), value :: self, name, value
       type(valve_type), pointer :: valve
 
+      call put_nan(value)
       call begin_results(self, value, valve, code)
       if (code == rv_ok) call give_number(valve, fact_columns(), valve%result%fact(:, 1), name, value, code)
    end function rv_valve_fact
@@ -239,102 +250,5 @@ contains
       if (samples == size(valve%time, kind=c_size_t)) return
       call refuse(valve, "the array must have "//to_text(size(valve%time))//" elements, one for each sample", code)
    end subroutine check_samples
-
-   integer(c_int) function rv_sweep(self, n_keys, keys, n_cases, values, measures, status, threads) result(code) bind(C)
-      type(c_ptr), value :: self, keys, values, measures, status
-      integer(c_int), value :: n_keys, threads
-      integer(c_size_t), value :: n_cases
-      type(valve_type), pointer :: valve
-      type(text_type), allocatable :: names(:)
-      type(error_type), allocatable :: error
-      type(deck_type) :: deck
-      real(c_double), pointer :: number(:, :), measure(:, :)
-      integer(c_int), pointer :: ends(:)
-
-      call begin_call(self, valve, code)
-      if (.not. associated(valve)) return
-      call take_names(valve, n_keys, keys, names, code)
-      if (code /= rv_ok) return
-      if (.not. (c_associated(values) .and. c_associated(measures) .and. c_associated(status))) then
-         call refuse(valve, no_pointer, code)
-      else if (n_cases < 1 .or. n_cases > most_cases) then
-         call refuse(valve, "a sweep has from 1 to 2000000000 cases", code)
-      else if (threads < 0 .or. threads > most_threads) then
-         call refuse(valve, "a sweep takes from 1 to 1024 threads; 0: as many as OpenMP offers", code)
-      end if
-      if (code /= rv_ok) return
-      call c_f_pointer(values, number, [int(n_keys, c_size_t), n_cases])
-      call c_f_pointer(measures, measure, [int(n_measures, c_size_t), n_cases])
-      call c_f_pointer(status, ends, [n_cases])
-      !$omp critical (rv_api_text)
-      call valve%setup%sweep(names, number, deck, valve%message, error)
-      !$omp end critical (rv_api_text)
-      call settle(valve, error, code)
-      if (.not. allocated(error)) call run_all(deck, merge(int(threads), omp_get_max_threads(), threads > 0), measure, ends)
-   end function rv_sweep
-
-   subroutine take_names(valve, n, keys, names, code)
-      type(valve_type), intent(inout) :: valve
-      integer(c_int), intent(in) :: n
-      type(c_ptr), intent(in) :: keys
-      type(text_type), allocatable, intent(out) :: names(:)
-      integer(c_int), intent(out) :: code
-      type(c_ptr), pointer :: name(:)
-      logical :: taken
-      integer :: i
-
-      code = rv_ok
-      if (n < 1 .or. n > 64) then
-         call refuse(valve, "a sweep varies from 1 to 64 keys", code)
-      else if (.not. c_associated(keys)) then
-         call refuse(valve, no_pointer, code)
-      end if
-      if (code /= rv_ok) return
-      call c_f_pointer(keys, name, [n])
-      allocate(names(n))
-      do i = 1, n
-         call take_text(name(i), names(i)%s, taken)
-         if (.not. taken) call refuse(valve, no_text, code)
-      end do
-   end subroutine take_names
-
-   !> All cases, cut into the blocks of a run of the same deck: the same bits.
-   subroutine run_all(deck, threads, measure, status)
-      type(deck_type), intent(in) :: deck
-      integer, intent(in) :: threads
-      real(c_double), intent(inout) :: measure(:, :)   !! in the measures' units
-      integer(c_int), intent(inout) :: status(:)
-      type(planform_cache), allocatable :: cache(:)   ! one a thread
-      integer :: block, blocks
-
-      blocks = block_count(deck)
-      allocate(cache(0:min(threads, blocks) - 1))
-      !$omp parallel do schedule(dynamic, 1) num_threads(size(cache)) default(none) &
-      !$omp& shared(deck, blocks, cache, measure, status)
-      do block = 1, blocks
-         call run_one(deck, block, cache(omp_get_thread_num()), measure, status)
-      end do
-      !$omp end parallel do
-   end subroutine run_all
-
-   subroutine run_one(deck, block, cache, measure, status)
-      type(deck_type), intent(in) :: deck
-      integer, intent(in) :: block
-      type(planform_cache), intent(inout) :: cache
-      real(c_double), intent(inout) :: measure(:, :)
-      integer(c_int), intent(inout) :: status(:)
-      type(block_result) :: result
-      type(column_type) :: column(n_measures)
-      integer(i8) :: first, last
-      integer :: i
-
-      call block_bounds(deck, block, first, last)
-      call run_block(deck, first, last, result, cache)
-      column = measure_columns()
-      do i = 1, n_measures
-         measure(i, first:last) = result%measure(i, :)*column(i)%to_unit
-      end do
-      status(first:last) = result%status
-   end subroutine run_one
 
 end module rv_api_run

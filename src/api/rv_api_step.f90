@@ -5,12 +5,12 @@ module rv_api_step
    use, intrinsic :: iso_fortran_env, only : int8
    use rv_kinds, only : wp, i8
    use rv_error, only : error_type, fail, rv_domain
-   use rv_api_call, only : begin_call, refuse, settle, code_of_status, put_number, rv_ok, no_pointer
+   use rv_api_call, only : begin_call, refuse, settle, code_of_status, put_number, put_nan, rv_ok, no_pointer
    use rv_block, only : n_traces
    use rv_case_facts, only : amplitudes_of, case_facts
    use rv_film_case, only : planform_cache
    use rv_handles, only : valve_type
-   use rv_keys, only : n_keys, kind_trace, key_pressure_kind
+   use rv_keys, only : n_keys, kind_trace, key_pressure_kind, key_run_model
    use rv_pressure, only : pressure_history
    use rv_state_bytes, only : state_count, save_state, restore_state
    use rv_stepper, only : new_stepper
@@ -23,7 +23,8 @@ module rv_api_step
    public :: rv_valve_state_size, rv_valve_state_save, rv_valve_state_restore
 
    real(wp), parameter :: least_scale = 1.0_wp   !! of a pressure difference; else no tolerance would be met [Pa]
-   real(wp), parameter :: shortest = 16.0_wp*epsilon(1.0_wp)   !! step, relative to the time
+   real(wp), parameter :: shortest = 1.0e-20_wp   !! step; squares of it are still numbers [s]
+   real(wp), parameter :: least_part = 16.0_wp*epsilon(1.0_wp)   !! of the time that a step may be
    character(len=*), parameter :: not_begun = "there is no state: begin first, after all settings"
 
 contains
@@ -92,11 +93,11 @@ contains
       if (code /= rv_ok) return
       if (valve%stepper%has_failed) then
          call refuse(valve, "the last step failed: go back to a saved state, or begin again", code)
-      else if (.not. all(ieee_is_finite([t_end, p_in0, p_in1, p_out0, p_out1]))) then
+      else if (.not. all(ieee_is_finite([t_end - valve%stepper%t, p_in0, p_in1, p_out0, p_out1]))) then
          call refuse(valve, "times and pressures must be finite numbers", code)
-      else if (.not. t_end - valve%stepper%t > shortest*max(abs(t_end), abs(valve%stepper%t))) then
-         call refuse(valve, "time must go on: t_end = "//to_text(t_end)//" s is not after t = " &
-            & //to_text(valve%stepper%t)//" s", code)
+      else if (.not. t_end - valve%stepper%t > max(shortest, least_part*max(abs(t_end), abs(valve%stepper%t)))) then
+         call refuse(valve, "time must go on: t_end = "//to_text(t_end)//" s is not beyond t = " &
+            & //to_text(valve%stepper%t)//" s by more than rounding", code)
       end if
       if (code /= rv_ok) return
       call valve%stepper%step(t_end, [p_in0, p_in1], [p_out0, p_out1], status, valve%message)
@@ -120,6 +121,7 @@ contains
       type(valve_type), pointer :: valve
       real(wp) :: number
 
+      call put_nan(value)
       call begin_stepping(self, valve, code)
       if (code /= rv_ok) return
       if (.not. c_associated(value)) then
@@ -195,7 +197,7 @@ contains
       call begin_state(self, bytes, size, valve, code)
       if (code /= rv_ok) return
       allocate(number(state_count(valve%stepper)))
-      call save_state(valve%stepper, number)
+      call save_state(valve%stepper, model_of(valve), number)
       call copy_to(number, bytes)
    end function rv_valve_state_save
 
@@ -210,7 +212,7 @@ contains
       if (code /= rv_ok) return
       allocate(number(state_count(valve%stepper)))
       call copy_from(bytes, number)
-      call restore_state(valve%stepper, number, error)
+      call restore_state(valve%stepper, model_of(valve), number, error)
       call settle(valve, error, code)
    end function rv_valve_state_restore
 
@@ -230,6 +232,12 @@ contains
             & //" bytes: "//to_text(state_count(valve%stepper))//" numbers of 8", code)
       end if
    end subroutine begin_state
+
+   pure integer function model_of(valve) result(model)
+      type(valve_type), intent(in) :: valve
+
+      model = nint(valve%setup%ready%value(key_run_model))
+   end function model_of
 
    !> The caller's bytes may lie at any address: not as numbers, then.
    subroutine copy_to(number, bytes)

@@ -1,9 +1,9 @@
 !> C API: making, setting and closing valves. What each call does is told in reedvalve.h.
 module rv_api_valve
    use, intrinsic :: iso_c_binding, only : c_associated, c_double, c_f_pointer, c_int, c_null_ptr, c_ptr, c_size_t
-   use rv_error, only : error_type, rv_bad_input
+   use rv_error, only : error_type, rv_bad_input, rv_internal
    use rv_text, only : to_text
-   use rv_api_call, only : begin_call, refuse, settle, put_number, rv_ok, no_valve, no_pointer, no_text
+   use rv_api_call, only : begin_call, refuse, settle, put_number, put_nan, rv_ok, no_valve, no_pointer, no_text
    use rv_c_text, only : give_text, take_text
    use rv_handles, only : valve_type, open_handle, close_handle, valve_of
    use rv_setup, only : new_setup, read_setup
@@ -18,11 +18,15 @@ contains
       type(c_ptr), value :: out
       type(valve_type), pointer :: valve
       type(c_ptr), pointer :: handle
+      integer :: stat
 
       code = rv_bad_input
       if (.not. c_associated(out)) return
       call c_f_pointer(out, handle)
-      allocate(valve)
+      handle = c_null_ptr
+      allocate(valve, stat=stat)
+      code = rv_internal
+      if (stat /= 0) return
       valve%message = ""
       !$omp critical (rv_api_text)
       call new_setup(valve%setup)
@@ -154,6 +158,7 @@ contains
       character(len=:), allocatable :: name
       real(c_double) :: number
 
+      call put_nan(value)
       call begin_get(self, key, value, valve, name, code)
       if (code /= rv_ok) return
       !$omp critical (rv_api_text)

@@ -3,7 +3,8 @@ module rv_f77_run
    use, intrinsic :: iso_c_binding, only : c_char, c_double, c_int, c_loc, c_ptr, c_size_t
    use rv_api_call, only : begin_call, refuse
    use rv_api_run, only : rv_valve_run, rv_valve_status, rv_valve_measure, rv_valve_fact, rv_valve_trace_size, &
-      & rv_valve_trace_times, rv_valve_trace, rv_measure_count, rv_sweep
+      & rv_valve_trace_times, rv_valve_trace, rv_measure_count
+   use rv_api_sweep, only : rv_sweep
    use rv_f77_text, only : to_c
    use rv_handles, only : handle_of, valve_type
    use rv_text, only : to_text
@@ -110,7 +111,7 @@ contains
          return
       end if
       allocate(text(key_length + 1, most_keys))
-      do k = 1, min(nk, most_keys)   ! others are refused unseen
+      do k = 1, merge(nk, 0, nk <= most_keys)   ! more are refused unseen
          call to_c(key((k - 1)*key_length + 1:k*key_length), name)
          text(:size(name), k) = name
          names(k) = c_loc(text(1, k))

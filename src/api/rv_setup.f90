@@ -20,6 +20,7 @@ module rv_setup
    public :: setup_type, new_setup, read_setup, find_any_key
 
    character(len=*), parameter :: nameless = "valve"          !! stands in messages for a deck's name
+   character(len=*), parameter :: no_fields = "pressure fields go to the results of a run of a deck; a valve has none"
    real(wp), parameter :: surely_fine_gap = 1.0e-6_wp         !! in mm; smaller ones have a rule of their own
 
    !> Settings; build them with new_setup or read_setup.
@@ -67,6 +68,7 @@ contains
             & //" cases; a valve is one case, a sweep runs many")
       end if
       if (allocated(error)) return
+      if (self%deck%given(key_film_fields_ms)) warnings = warnings//path//": warning: film.fields_ms: "//no_fields//new_line("a")
       call self%deck%case_values(1_i8, value)
       call make_plain(self%deck, value)
    end subroutine read_setup
@@ -133,7 +135,7 @@ contains
       if (allocated(error)) return
       call read_value(key, word, any(keys(key)%kind == [choice_key, text_key]), value, trouble)
       if (is_number .and. keys(key)%kind == text_key) trouble = "it is a word: set it as text"
-      if (key == key_film_fields_ms) trouble = "pressure fields go to the results of a run of a deck; a valve has none"
+      if (key == key_film_fields_ms) trouble = no_fields
       if (trouble /= "") then
          call fail(error, rv_bad_input, full_name(key)//" = "//clip(word, 40)//": "//trouble)
          return

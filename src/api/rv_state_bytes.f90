@@ -9,8 +9,8 @@ module rv_state_bytes
    private
    public :: state_count, save_state, restore_state
 
-   real(wp), parameter :: mark = 5256.1_wp   !! first number of every state, and the version of this form
-   integer, parameter :: head = 6            !! numbers before the displacements
+   real(wp), parameter :: mark = 5256.2_wp   !! first number of every state, and the version of this form
+   integer, parameter :: head = 7            !! numbers before the displacements
 
 contains
 
@@ -21,11 +21,12 @@ contains
       n = head + size(stepper%state) + size(stepper%sample) + 1
    end function state_count
 
-   subroutine save_state(stepper, number)
+   subroutine save_state(stepper, model, number)
       type(stepper_type), intent(in) :: stepper
+      integer, intent(in) :: model                             !! of the valve
       real(wp), intent(out), target, contiguous :: number(:)   !! (state_count)
 
-      number(:head) = [mark, real(size(stepper%state), wp), real(size(stepper%sample), wp), &
+      number(:head) = [mark, real(model, wp), real(size(stepper%state), wp), real(size(stepper%sample), wp), &
          & merge(1.0_wp, 0.0_wp, stepper%has_stepped), stepper%t, stepper%next_step]
       associate (n => size(stepper%state))
          number(head + 1:head + n) = stepper%state
@@ -34,24 +35,25 @@ contains
       number(size(number)) = checksum(number)
    end subroutine save_state
 
-   !> Go back to a saved state, of a valve with as many degrees of freedom. On failure nothing changes.
-   subroutine restore_state(stepper, number, error)
+   !> Go back to a saved state, of a valve of the same model with as many degrees of freedom. On failure nothing changes.
+   subroutine restore_state(stepper, model, number, error)
       type(stepper_type), intent(inout) :: stepper
+      integer, intent(in) :: model
       real(wp), intent(in), target, contiguous :: number(:)   !! (state_count)
       type(error_type), allocatable, intent(out) :: error
       logical :: fits
 
       associate (n => size(stepper%state))
-         fits = abs(number(1) - mark) <= 0.0_wp .and. nint(number(2)) == n .and. nint(number(3)) == size(stepper%sample)
+         fits = all(abs(number(:4) - [mark, real([model, n, size(stepper%sample)], wp)]) <= 0.0_wp)
          if (fits) fits = abs(number(size(number)) - checksum(number)) <= 0.0_wp
          if (.not. fits) then
             call fail(error, rv_bad_input, "these bytes are no state of such a valve, or are damaged")
             return
          end if
-         stepper%has_stepped = number(4) > 0.5_wp
+         stepper%has_stepped = number(5) > 0.5_wp
          stepper%has_failed = .false.
-         stepper%t = number(5)
-         stepper%next_step = number(6)
+         stepper%t = number(6)
+         stepper%next_step = number(7)
          stepper%state = number(head + 1:head + n)
          stepper%sample = number(head + n + 1:size(number) - 1)
       end associate

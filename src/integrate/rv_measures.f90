@@ -496,7 +496,7 @@ contains
       measure(6) = self%down(i, 3) - self%event
       if (-self%lowest(i) > least) measure(7) = self%down(i, 4) - self%event
       if (self%now > self%event) measure(8) = above(-self%lowest(i), least)
-      measure(9) = self%largest_force(i)
+      measure(9) = merge(0.0_wp, self%largest_force(i), self%largest_force(i) <= 0.0_wp)   ! no -0
    end function results
 
    !> x, or zero where it is not above `least`; a `least` that is not known bounds nothing.

@@ -125,6 +125,26 @@ static void test_restore(const char *model, int steps) {
   rv_valve_free(&other);
 }
 
+/* States of the same length: of the lumped models, and of film models with one degree of freedom. */
+static void test_other_models(void) {
+  static const char *const model[2][2] = {{"traditional", "squeeze"}, {"film_table", "film"}};
+  for (int i = 0; i < 2; i++) {
+    rv_valve *valve = new_valve(model[i][0]), *other = new_valve(model[i][1]);
+    size_t bytes = 0;
+    char state[400];
+    GOOD(other, rv_valve_set_real(other, "film.modes", 1.0));
+    GOOD(valve, rv_valve_begin(valve, 0.0));
+    GOOD(other, rv_valve_begin(other, 0.0));
+    GOOD(valve, rv_valve_state_size(valve, &bytes));
+    CHECK(bytes <= sizeof state);
+    GOOD(valve, rv_valve_state_save(valve, state, bytes));
+    FAILS(other, rv_valve_state_restore(other, state, bytes), RV_BAD_INPUT, "no state of such a valve");
+    GOOD(valve, rv_valve_state_restore(valve, state, bytes));
+    rv_valve_free(&valve);
+    rv_valve_free(&other);
+  }
+}
+
 static void test_state(void) {
   rv_valve *valve = new_valve("film");
   int dofs = 0;
@@ -167,16 +187,21 @@ static void test_wrong_uses(void) {
   FAILS(valve, rv_valve_state_size(valve, &bytes), RV_BAD_INPUT, "begin first");
   FAILS(valve, rv_valve_output(valve, RV_VELOCITY, &after), RV_BAD_INPUT, "begin first");
   FAILS(valve, rv_valve_begin(valve, NAN), RV_BAD_INPUT, "finite");
+  GOOD(valve, rv_valve_begin(valve, -1e308));
+  FAILS(valve, rv_valve_step(valve, 1e308, 0.0, 0.0, 0.0, 0.0), RV_BAD_INPUT, "finite");
   GOOD(valve, rv_valve_begin(valve, 0.0));
+  FAILS(valve, rv_valve_step(valve, 1e-300, 0.0, 0.0, 0.0, 0.0), RV_BAD_INPUT, "by more than rounding");
   GOOD(valve, rv_valve_step(valve, 1e-3, 0.0, 20000.0, 0.0, 0.0));
   before = output(valve, RV_DISPLACEMENT);
   FAILS(valve, rv_valve_step(valve, 0.5e-3, 0.0, 0.0, 0.0, 0.0), RV_BAD_INPUT, "time must go on");
   FAILS(valve, rv_valve_step(valve, 1e-3, 0.0, 0.0, 0.0, 0.0), RV_BAD_INPUT, "time must go on");
+  FAILS(valve, rv_valve_step(valve, 1e-3 * (1.0 + 4e-16), 0.0, 0.0, 0.0, 0.0), RV_BAD_INPUT, "by more than rounding");
   FAILS(valve, rv_valve_step(valve, NAN, 0.0, 0.0, 0.0, 0.0), RV_BAD_INPUT, "finite");
   FAILS(valve, rv_valve_step(valve, 2e-3, 0.0, NAN, 0.0, 0.0), RV_BAD_INPUT, "finite");
   FAILS(valve, rv_valve_step(valve, 2e-3, 0.0, 0.0, -INFINITY, 0.0), RV_BAD_INPUT, "finite");
   FAILS(valve, rv_valve_output(valve, 10, &after), RV_BAD_INPUT, "no such output");
   FAILS(valve, rv_valve_output(valve, -1, &after), RV_BAD_INPUT, "no such output");
+  CHECK(isnan(after));
   FAILS(valve, rv_valve_output(valve, 0, NULL), RV_BAD_INPUT, "NULL");
   FAILS(valve, rv_valve_dofs(valve, NULL), RV_BAD_INPUT, "NULL");
   CHECK(output(valve, RV_DISPLACEMENT) == before);
@@ -205,6 +230,7 @@ int main(void) {
   test_restore("squeeze", 300);
   test_restore("film_table", 100);
   test_restore("film", 10);
+  test_other_models();
   test_state();
   test_equilibrium();
   test_wrong_uses();

@@ -3,8 +3,8 @@ program test_sweep
    use, intrinsic :: iso_c_binding, only : c_char, c_double, c_int, c_loc, c_null_char, c_null_ptr, c_ptr, c_size_t
    use, intrinsic :: ieee_arithmetic, only : ieee_value, ieee_quiet_nan
    use rv_kinds, only : wp, i8
-   use rv_api_run, only : rv_sweep
-   use rv_api_valve, only : rv_valve_new, rv_valve_free, rv_valve_message
+   use rv_api_sweep, only : rv_sweep
+   use rv_api_valve, only : rv_valve_new, rv_valve_free, rv_valve_message, rv_valve_set_real, rv_valve_set_text
    use rv_block, only : block_bounds, block_count, block_result, measure_columns, n_measures, run_block, trace_columns
    use rv_deck, only : deck_type, read_deck
    use rv_error, only : error_type, rv_bad_input, rv_domain, rv_internal, rv_io, rv_not_converged
@@ -22,6 +22,8 @@ program test_sweep
    end interface
 
    integer, parameter :: n = 4500   !! cases: three blocks, the last one shorter
+   character(kind=c_char, len=16), target :: traces_key = "run.traces"//c_null_char, true_word = ".true."//c_null_char
+   character(kind=c_char, len=18), target :: step_key = "run.trace_dt_ms"//c_null_char
    type(suite_type) :: suite
    character(kind=c_char, len=24), target :: name(2) = [character(len=24) :: "film.gap_mm"//c_null_char, &
       & "pressure.inlet_kpa"//c_null_char]
@@ -36,7 +38,10 @@ program test_sweep
    names = [(c_loc(name(i)), i=1, 2)]
    call suite%equal("new", int(rv_valve_new(c_loc(valve))), 0)
    call test_codes()
-   call test_same_bits()
+   call test_same_bits(.false., 3)
+   call suite%equal("traces", int(rv_valve_set_text(valve, c_loc(traces_key), c_loc(true_word))), 0)
+   call suite%equal("samples", int(rv_valve_set_real(valve, c_loc(step_key), 0.005_c_double)), 0)
+   call test_same_bits(.true., 8)
    call test_refused()
    call test_failures()
    call suite%equal("free", int(rv_valve_free(c_loc(valve))), 0)
@@ -62,7 +67,9 @@ contains
    end subroutine test_codes
 
    !> A deck with a design file of the same numbers, block by block, as every run does it.
-   subroutine test_same_bits()
+   subroutine test_same_bits(traces, blocks)
+      logical, intent(in) :: traces    !! which a sweep leaves out, but they cut the blocks
+      integer, intent(in) :: blocks
       type(deck_type) :: deck
       type(fault_list) :: faults
       type(error_type), allocatable :: error
@@ -79,6 +86,7 @@ contains
       close(unit)
       open(newunit=unit, file="api_sweep.nml", status="replace", action="write")
       write(unit, '(a)') "&design file = 'api_sweep.csv' /"
+      if (traces) write(unit, '(a)') "&run traces = .true., trace_dt_ms = 0.005 /"
       close(unit)
       call read_deck("api_sweep.nml", deck, faults, error)
       call suite%no_error("deck", error)
@@ -87,7 +95,7 @@ contains
       call run_sweep(2, n, 1, again, 0, "")
       call suite%true("two threads or one", all(same_bits(measure, again)))
       call suite%true("all cases run", all(status == status_ok))
-      call suite%equal("blocks", block_count(deck), 3)
+      call suite%equal("blocks", block_count(deck), blocks)
       same = .true.
       do k = 1, block_count(deck)
          call block_bounds(deck, k, first, last)

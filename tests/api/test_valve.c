@@ -158,6 +158,7 @@ static void test_wrong_settings(void) {
   FAILS(valve, rv_valve_set_real(valve, NULL, 1.0), RV_BAD_INPUT, "NULL");
   FAILS(valve, rv_valve_set_text(valve, "run.model", NULL), RV_BAD_INPUT, "NULL");
   FAILS(valve, rv_valve_get_real(valve, "run.model", &value), RV_BAD_INPUT, "as text");
+  CHECK(isnan(value));
   FAILS(valve, rv_valve_get_real(valve, "film.gap_mm", NULL), RV_BAD_INPUT, "NULL");
   FAILS(valve, rv_valve_get_text(valve, "film.gap_mm", NULL, 10), RV_BAD_INPUT, "NULL");
   FAILS(valve, rv_valve_get_text(valve, "film.gapp_mm", text, sizeof text), RV_BAD_INPUT, "film.gap_mm");
@@ -216,6 +217,7 @@ static void test_wrong_order(void) {
   FAILS(valve, rv_valve_trace_size(valve, &samples), RV_BAD_INPUT, "run the valve first");
   GOOD(valve, rv_valve_run(valve));
   FAILS(valve, rv_valve_measure(valve, "stedy_mm", &value), RV_BAD_INPUT, "no such name");
+  CHECK(isnan(value));
   FAILS(valve, rv_valve_fact(valve, "reynold", &value), RV_BAD_INPUT, "'reynold': there is no such name");
   FAILS(valve, rv_valve_fact(valve, "reynolds", NULL), RV_BAD_INPUT, "NULL");
   FAILS(valve, rv_valve_measure(valve, NULL, &value), RV_BAD_INPUT, "NULL");
@@ -285,6 +287,10 @@ static void test_decks(void) {
   CHECK(rv_valve_new_deck("api_swept.nml", &valve, NULL, 0) == RV_OK);
   GOOD(valve, rv_valve_get_real(valve, "film.gap_mm", &value));
   CHECK(value == 0.04);
+  rv_valve_free(&valve);
+  write_deck("api_fields.nml", "&run model = 'film' /\n&film fields_ms = 1.0 /\n");
+  CHECK(rv_valve_new_deck("api_fields.nml", &valve, text, sizeof text) == RV_OK);
+  CHECK(strstr(text, "api_fields.nml: warning: film.fields_ms: pressure fields go to the results") != NULL);
   rv_valve_free(&valve);
   CHECK(rv_valve_new_deck("there_is_none.nml", &valve, text, sizeof text) == RV_IO);
   CHECK(strstr(text, "there_is_none.nml") != NULL);

@@ -12,6 +12,11 @@ cleanup='umount "$work/disk"'
 { sweep_deck 200 1.0e-6; echo "&fluid viscosity_pa_s = 0.002 /"; } >deck.nml
 expect 0 'are marked' run deck.nml -o whole
 
+if [ -e "$(dirname "$program")/fmu" ]; then
+   echo "&film gap_mm = 0.05 /" >one.nml
+   expect 3 'No space left on device' fmu one.nml -o disk/valve.fmu
+   fails "no half of an FMU is left" sh -c 'ls disk | grep fmu'
+fi
 expect 3 'no room for this run' run deck.nml -o disk/results
 fails "nothing was computed" test -e disk/results/parts
 mount -o remount,size=590k disk

@@ -10,6 +10,9 @@ apt-get -q update >log 2>&1 || { tail -n 20 log; exit 1; }
 install ./reedvalve_*.deb
 reedvalve --version
 reedvalve run /usr/share/reedvalve/inputs/response.nml -o alone | grep 'none failed'
+reedvalve template squeeze >valve.nml
+reedvalve fmu valve.nml -o valve.fmu
+test -s valve.fmu
 
 install ./*.deb gcc g++ gfortran libc6-dev cmake make pkg-config openmpi-bin
 mpirun --allow-run-as-root --oversubscribe -n 2 reedvalve_mpi run /usr/share/reedvalve/inputs/response.nml -o ranks |

@@ -97,7 +97,7 @@ def test_wrong_steps() -> None:
                            ((1e-3, "high"), "a pressure is a number or a pair of numbers, not 'high'")):  # fmt: skip
         with pytest.raises(rv.BadInputError, match=message):
             valve.step(*words)
-    with pytest.raises(rv.BadInputError, match="a state of this valve has 112 bytes: 14 numbers of 8"):
+    with pytest.raises(rv.BadInputError, match=r"a state of this valve has \d+ bytes: \d+ numbers of 8"):
         valve.restore(b"short")
     with pytest.raises(TypeError):
         valve.restore(32)
