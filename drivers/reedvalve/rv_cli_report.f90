@@ -89,7 +89,8 @@ contains
 
       do i = 1, n_warnings
          if (outcome%tally%warned(i) > 0) call complain("warning: "//to_text(outcome%tally%warned(i)) &
-            & //" of "//to_text(outcome%tally%cases)//" cases are marked "//warning_name(i)//"; the first: " &
+            & //" of "//to_text(outcome%tally%cases)//" cases " &
+            & //trim(merge("is ", "are", outcome%tally%warned(i) == 1))//" marked "//warning_name(i)//"; the first: " &
             & //bare(outcome%tally%warning(i)%s))
       end do
       call say(cases_text(outcome))

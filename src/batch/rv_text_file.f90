@@ -118,7 +118,7 @@ contains
       write(hex, '(z2.2)') c
       if (is_utf16) then
          trouble = "this file is UTF-16; save it as UTF-8"
-      else if (c < 128) then
+      else if (c < 128 .or. index(text, achar(0)) > 0) then
          trouble = "byte "//hex//" (hexadecimal) does not belong into a text; is this a binary file?"
       else
          trouble = "byte "//hex//" (hexadecimal) is not UTF-8; save the file as UTF-8"

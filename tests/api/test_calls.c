@@ -6,6 +6,25 @@
 
 enum { places = 4, calls = 12 };
 
+/* The Fortran 77 interface, with the lengths of texts behind the other arguments. */
+void rv_new_(int *iv, int *ierr);
+void rv_free_(int *iv, int *ierr);
+void rv_msg_(const int *iv, char *text, int *ierr, size_t length);
+void rv_name_(const char *list, const int *i, char *name, char *unit, int *ierr, size_t, size_t, size_t);
+void rv_set_(const int *iv, const char *key, const double *x, int *ierr, size_t length);
+void rv_setc_(const int *iv, const char *key, const char *word, int *ierr, size_t, size_t);
+void rv_getc_(const int *iv, const char *key, char *word, int *ierr, size_t, size_t);
+void rv_meas_(const int *iv, const char *name, double *x, int *ierr, size_t length);
+void rv_begin_(const int *iv, const double *t0, int *ierr);
+void rv_step_(const int *iv, const double *t1, const double *in0, const double *in1, const double *out0, const double *out1,
+              int *ierr);
+void rv_state_(const int *iv, double *t, double *q, double *v, const int *n, double *h, int *ierr);
+void rv_size_(const int *iv, int *n, int *ierr);
+void rv_save_(const int *iv, double *w, const int *n, int *ierr);
+void rv_rest_(const int *iv, const double *w, const int *n, int *ierr);
+void rv_cases_(const int *iv, const int *nk, const char *key, const int *nc, const double *x, const int *nm, double *y,
+               int *istat, const int *nthr, int *ierr, size_t length);
+
 static uint64_t seed = 5256;
 
 /* Marsaglia (2003), doi:10.18637/jss.v008.i14. */
@@ -80,11 +99,91 @@ static void call_sweep(rv_valve *valve) {
   check_code(rv_sweep(valve, (int)draw(4) - 1, keys, draw(4), values, measures, status, 1));
 }
 
+static void call_names(void) {
+  int i = (int)draw(80) - 2;
+  char text[40];
+  check_code(rv_key_name(i, draw(8) > 0 ? text : NULL, draw(sizeof text)));
+  check_code(rv_key_unit(i, text, draw(sizeof text)));
+  check_code(rv_key_help(i, text, draw(sizeof text)));
+  CHECK(rv_key_kind(i) >= 0 && rv_key_kind(i) <= RV_TEXT);
+  check_code(rv_fact_name(i, text, draw(sizeof text)));
+  check_code(rv_trace_unit(i, text, draw(sizeof text)));
+}
+
+/* A text of Fortran 77: a word in a longer place, or only the beginning of it. */
+static size_t fixed(char text[40]) {
+  const char *one = word();
+  memset(text, ' ', 40);
+  if (one != NULL) memcpy(text, one, strlen(one));
+  return draw(40);
+}
+
+/* One of a few valves with numbers for handles, or a number that may be none. */
+static int number_of[places];
+
+static void call_f77(void) {
+  static int n;
+  static double state[100];
+  int *iv = &number_of[draw(places)], wild = (int)draw(200000) - 100, ierr = 0, i = (int)draw(5) - 1, nm = 9, status[3];
+  char key[80], text[40], unit[40];
+  double x = number(), t = 0.0, values[9] = {0.0}, measures[27];
+  size_t length = fixed(key), other = draw(sizeof text);
+  if (*iv == 0) rv_new_(iv, &ierr);
+  if (draw(8) == 0) iv = &wild;
+  switch (draw(11)) {
+    case 0:
+      rv_free_(iv, &ierr);
+      break;
+    case 1:
+      rv_set_(iv, key, &x, &ierr, length);
+      break;
+    case 2:
+      rv_setc_(iv, "run.model", key, &ierr, 9, length);
+      break;
+    case 3:
+      rv_getc_(iv, key, text, &ierr, length, other);
+      break;
+    case 4:
+      rv_name_(key, &i, text, unit, &ierr, length, other, draw(sizeof text));
+      break;
+    case 5:
+      rv_meas_(iv, key, &x, &ierr, length);
+      break;
+    case 6:
+      rv_begin_(iv, &t, &ierr);
+      break;
+    case 7:
+      t = 5e-5 * draw(5);
+      rv_step_(iv, &t, &values[0], &x, &t, &t, &ierr);
+      break;
+    case 8:
+      rv_size_(iv, &n, &ierr);
+      if (n > 100 || draw(8) == 0) n = (int)draw(102) - 1;
+      rv_save_(iv, state, &n, &ierr);
+      break;
+    case 9:
+      if (draw(4) == 0) state[draw(100)] += 1.0;
+      rv_rest_(iv, state, &n, &ierr);
+      rv_state_(iv, &t, values, measures, &i, &x, &ierr);
+      break;
+    default:
+      for (int k = 0; k < 9; k++) values[k] = 0.03;
+      memset(key + 40, ' ', 40);
+      memcpy(key, "film.gap_mm", 11);
+      t = 0.3;
+      rv_set_(iv, "run.t_end_ms", &t, &ierr, 12);
+      rv_cases_(iv, &i, key, &i, values, &nm, measures, status, &i, &ierr, draw(27));
+  }
+  check_code(ierr);
+  rv_msg_(iv, text, &ierr, other);
+  check_code(ierr);
+}
+
 static void call_any(rv_valve **valve) {
   char text[60];
   double value;
   int is_set;
-  switch (draw(16)) {
+  switch (draw(19)) {
     case 0:
       if (*valve == NULL || draw(4) == 0) rv_valve_free(valve);
       if (*valve == NULL) check_code(rv_valve_new(valve));
@@ -128,6 +227,13 @@ static void call_any(rv_valve **valve) {
     case 14:
       call_run(*valve);
       break;
+    case 15:
+      call_names();
+      break;
+    case 16:
+    case 17:
+      call_f77();
+      break;
     default:
       call_sweep(*valve);
   }
@@ -144,6 +250,11 @@ int main(int count, char **argument) {
     for (unsigned i = draw(calls) + 1; i > 0; i--) call_any(one);
     if (draw(3) == 0) rv_valve_free(one);
   }
-  for (int i = 0; i < places; i++) rv_valve_free(&valve[i]);
+  for (int i = 0; i < places; i++) {
+    int ierr;
+    rv_valve_free(&valve[i]);
+    rv_free_(&number_of[i], &ierr);
+    check_code(ierr);
+  }
   return api_finish();
 }

@@ -9,7 +9,7 @@ program test_cases
    use rv_text, only : to_text
    use check, only : suite_type
    use block_trial, only : run_all, read_good, agree, agreement, same_bits, steady, rise, overshoot, fall, closing, &
-      & undershoot, twelve
+      & undershoot, peak, twelve
    implicit none
    type(suite_type) :: suite
 
@@ -155,6 +155,8 @@ contains
       call suite%true("both cases stop at the limit", all(r%status == status_too_many_steps))
       call suite%true("and say so: "//r%message(2)%s, index(r%message(2)%s, "after 20 steps") == 1 &
          & .and. index(r%message(2)%s, "max_steps") > 0)
+      call run_all(suite, "&solver max_steps = 1 /", r)
+      call suite%true("no film force yet is 0, not -0", sign(1.0_wp, r%measure(peak, 1)) > 0.0_wp)
    end subroutine step_limit
 
    !> Thin oil: Re = rho omega h B/mu leaves 0.1 to 1000. Flagged and worded, but run; a failure's reason goes first.

@@ -41,6 +41,7 @@ deck "&sweep key = 'film.gap_mm', from = 0.1, to = 0.2, count = 1000000 /" \
 printf '' >bad.nml;                                                   broken 2 'bad.nml.*empty'
 printf '&run model = "squeeze"' >bad.nml;                             broken 2 "bad.nml:1:.*/"
 printf '\177ELF\002\001\001\000\000\000' >bad.nml;                    broken 2 'bad.nml.*(binary|text)'
+printf '\211HDF\r\n\032\n\000' >bad.nml;                              broken 2 'bad.nml.*binary'
 printf '\377\376&\000r\000' >bad.nml;                                 broken 2 'bad.nml.*UTF-8'
 rm bad.nml; truncate -s 1G bad.nml;                                   broken 2 'bad.nml.*1073741824 bytes'
 rm bad.nml;                                                           broken 3 "bad.nml.*no such file"

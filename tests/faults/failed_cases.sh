@@ -20,7 +20,7 @@ expect 1 'finished before' run deck.nml --resume
 
 # a warning is not a failure
 printf "&hydro load = 'maali' /\n&reed thickness_mm = 0.3 /\n" >warned.nml
-expect 0 '1 of 1 cases are marked reynolds_range' run warned.nml
+expect 0 '1 of 1 cases is marked reynolds_range' run warned.nml
 holds "the summary has it" grep -q 'ok,.*Re = ' warned/summary.csv
 
 # both film models watch for cavitation, without traces too

@@ -1,6 +1,7 @@
 # clean_root.sh DEBS TESTS PAGE: install the packages in the folder DEBS into a Debian of its own that has nothing else, run
 # the programs there, and build the examples by the commands of PAGE, as TESTS/page.sh does.
 set -eu
+PATH=$PATH:/usr/sbin:/sbin
 debs=$1 tests=$2 page=$3
 skip() {
    echo "skipped: $1"

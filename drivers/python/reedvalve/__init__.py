@@ -53,3 +53,8 @@ __all__ = [
     "product",
     "unit",
 ]
+
+for _thing in list(globals().values()):
+    if getattr(_thing, "__module__", "").startswith(f"{__name__}._"):
+        _thing.__module__ = __name__  # where users find it, for tracebacks and help
+del _thing

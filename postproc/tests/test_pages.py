@@ -1,17 +1,27 @@
-"""The user guide's examples, run as printed; the program is found through the environment variable REEDVALVE."""
+"""Examples of README and user guide, run as printed, with the program that the environment variable REEDVALVE names."""
 
 from __future__ import annotations
 
+import io
 import os
 import re
 import subprocess
 import sys
 from pathlib import Path
 
+import pandas as pd
 import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
-BLOCKS = re.findall(r"^```(\w*)\n(.*?)^```$", (ROOT / "docs" / "guide.md").read_text("utf-8"), re.DOTALL | re.MULTILINE)
+
+
+def blocks(page):
+    """Language and text of each block."""
+    return re.findall(r"^```(\w*)\n(.*?)^```$", (ROOT / page).read_text("utf-8"), re.DOTALL | re.MULTILINE)
+
+
+BLOCKS = blocks("docs/guide.md")
+README = [text for _, text in blocks("README.md")]
 PROGRAM = os.environ.get("REEDVALVE")
 pytestmark = pytest.mark.skipif(not PROGRAM, reason="REEDVALVE, the path of the reedvalve program, is not set")
 
@@ -78,3 +88,24 @@ def test_fields(tmp_path):
     assert told(BLOCKS[at + 1][1], tmp_path) == BLOCKS[at + 2][1]
     shell(BLOCKS[at + 3][1].splitlines()[0], tmp_path)
     assert (tmp_path / "fields" / "vtk" / "case_0001.pvd").is_file()
+
+
+def readme(words):
+    """The block of the README that begins with these words."""
+    return next(text for text in README if text.startswith(words))
+
+
+def test_readme_deck_and_summary(tmp_path):
+    """Numbers to what another processor's rounding leaves of them."""
+    (tmp_path / "my.nml").write_text(readme("&run\n   title = 'A stiffer reed'"), encoding="utf-8")
+    said = shell("reedvalve run my.nml", tmp_path).stdout.splitlines()
+    assert said[:2] == readme("$ reedvalve run my.nml").splitlines()[1:3]
+    ours = pd.read_csv(tmp_path / "my" / "summary.csv")
+    printed = pd.read_csv(io.StringIO(readme("case,model,")))
+    pd.testing.assert_frame_equal(ours[printed.columns], printed, rtol=1e-7)
+
+
+def test_readme_modes(tmp_path):
+    (tmp_path / "my.nml").write_text("&run model = 'film' /\n", encoding="utf-8")
+    last = readme("$ reedvalve modes").splitlines()[1:]
+    assert shell("reedvalve modes my.nml", tmp_path).stdout.splitlines()[-len(last) :] == last
