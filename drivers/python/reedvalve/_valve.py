@@ -28,7 +28,8 @@ class Valve(Stepping):
 
     A valve may be used by several threads: their calls wait for each other. Different valves compute at the same time,
     for the interpreter's lock is not held meanwhile. :func:`copy.copy` and :mod:`pickle` make another valve with the
-    same settings and state. Memory is given back with :meth:`close`, at the end of a ``with`` block, or with the object.
+    same settings and state. Memory is given back with :meth:`close`, at the end of a ``with`` block, or with the
+    object.
 
     Args:
         deck: path of a deck of one case; None: the defaults.
