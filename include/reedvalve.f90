@@ -584,7 +584,7 @@ contains
       integer, allocatable, intent(out) :: status(:)                !! rv_case_, (cases)
       integer, intent(in), optional :: threads                      !! default: as many as OpenMP offers
       integer, intent(out), optional :: stat
-      character(kind=c_char), allocatable, target :: text(:, :)
+      character(kind=c_char), target :: text(len(keys) + 1, size(keys))
       type(c_ptr), allocatable :: names(:)
       integer :: cases, fault, k, wanted
       logical :: goes
@@ -593,7 +593,7 @@ contains
       cases = merge(size(values, 2), 0, goes)
       allocate(measures(c_measure_count(), cases), source=nan(), stat=fault)
       if (fault == 0) allocate(status(cases), source=rv_case_bad_case, stat=fault)
-      if (fault == 0) allocate(text(len(keys) + 1, size(keys)), names(size(keys)), stat=fault)
+      if (fault == 0) allocate(names(size(keys)), stat=fault)
       if (fault /= 0) call refuse(self, rv_internal, "no memory for the results of a sweep", stat)
       if (fault /= 0 .or. .not. goes) return
       if (size(values, 1) /= size(keys)) then

@@ -54,9 +54,9 @@ module rv_block
    integer, parameter :: n_shared = n_planform + size(shared_keys)
 
    ! Blocks that the deck leaves to us: many enough for many workers, large enough that lanes find like neighbours,
-   ! small enough that a killed run loses seconds. 512 is a multiple of every likely width: no lane is left empty.
-   integer(i8), parameter :: wanted_blocks = 64, fewest_cases = 512, most_cases = 4096
-   integer(i8), parameter :: fewest_film_cases = 16         !! of the model film, whose cases take some 0.1 s each
+   ! small enough that a killed run loses seconds. 2048 is a multiple of every likely width: no lane is left empty.
+   integer(i8), parameter :: wanted_blocks = 64, fewest_cases = 2048, most_cases = 8192
+   integer(i8), parameter :: fewest_film_cases = 16, most_film_cases = 256  !! of the model film: some 0.1 s a case
 
    integer(i8), parameter :: most_trace_bytes = 64*1024**2  !! of one block's traces in memory
 
@@ -85,8 +85,10 @@ contains
       call prepare(deck, result, first, n, size(time))
       do i = 1, n
          call deck%case_values(first + i - 1, value(:, i))
-         order_by(:, i) = [planform_key(value(:, i)), value(shared_keys, i), &
-            & value(key_fluid_viscosity_pa_s, i)/max(value(key_film_gap_mm, i), least_gap)**3, value(key_pressure_inlet_kpa, i)]
+         order_by(:n_planform, i) = planform_key(value(:, i))
+         order_by(n_planform + 1:n_shared, i) = value(shared_keys, i)
+         order_by(n_shared + 1, i) = value(key_fluid_viscosity_pa_s, i)/max(value(key_film_gap_mm, i), least_gap)**3
+         order_by(n_shared + 2, i) = value(key_pressure_inlet_kpa, i)
       end do
       where (ieee_is_nan(order_by)) order_by = -huge(1.0_wp)
 
@@ -237,7 +239,7 @@ contains
       result%fact(:, place) = facts%fact
       result%status(place) = status
       result%warnings(place) = facts%warnings
-      result%message(place)%s = message
+      if (message /= "") result%message(place)%s = message
       if (.not. allocated(facts%note)) return
       if (status /= status_ok) result%message(place)%s = result%message(place)%s//"; "
       result%message(place)%s = result%message(place)%s//facts%note
@@ -302,13 +304,17 @@ contains
    !> not who works on it: the cut shows in the last digits.
    integer(i8) function cases_per_block(deck) result(n)
       type(deck_type), intent(in) :: deck
-      integer(i8) :: bytes, fewest
+      integer(i8) :: bytes, fewest, most
 
       n = nint(deck%value(key_run_block_size), i8)
       if (n == 0) then
          fewest = fewest_cases
-         if (deck%uses_model(model_film)) fewest = fewest_film_cases
-         n = max(fewest, min(most_cases, fewest*(deck%case_count()/(wanted_blocks*fewest))))
+         most = most_cases
+         if (deck%uses_model(model_film)) then
+            fewest = fewest_film_cases
+            most = most_film_cases
+         end if
+         n = max(fewest, min(most, fewest*(deck%case_count()/(wanted_blocks*fewest))))
       end if
       bytes = 8*(int(trace_count(deck), i8)*size(trace_times(deck)) &
          & + int(field_nodes(deck), i8)*size(deck%field_times()))

@@ -31,8 +31,8 @@ contains
       real(wp), intent(in) :: stiffness, mass, added_mass, added_damping, reynolds
       logical, intent(in) :: in_range
 
-      facts%fact = [stiffness, mass, added_mass, added_damping, reynolds, &
-         & sqrt(stiffness/(mass + added_mass))/(2.0_wp*pi), spread(ieee_value(1.0_wp, ieee_quiet_nan), 1, 2)]
+      facts%fact = ieee_value(1.0_wp, ieee_quiet_nan)
+      facts%fact(:6) = [stiffness, mass, added_mass, added_damping, reynolds, sqrt(stiffness/(mass + added_mass))/(2.0_wp*pi)]
       if (.not. all(ieee_is_finite(facts%fact([1, 2, 3, 4, 6])))) then
          call fail(facts%error, rv_bad_input, "stiffness, mass or load is not a finite number for these data")
          return

@@ -25,13 +25,13 @@ module rv_checksum
    integer(int32), parameter :: b6(0:255) = merge(ieor(shiftr(b5, 1), polynomial), shiftr(b5, 1), btest(b5, 0))
    integer(int32), parameter :: b7(0:255) = merge(ieor(shiftr(b6, 1), polynomial), shiftr(b6, 1), btest(b6, 0))
    integer(int32), parameter :: t0(0:255) = merge(ieor(shiftr(b7, 1), polynomial), shiftr(b7, 1), btest(b7, 0))
-   integer(int32), parameter :: t1(0:255) = [(ieor(shiftr(t0(i_), 8), t0(iand(t0(i_), low_byte))), i_=0, 255)]
-   integer(int32), parameter :: t2(0:255) = [(ieor(shiftr(t1(i_), 8), t0(iand(t1(i_), low_byte))), i_=0, 255)]
-   integer(int32), parameter :: t3(0:255) = [(ieor(shiftr(t2(i_), 8), t0(iand(t2(i_), low_byte))), i_=0, 255)]
-   integer(int32), parameter :: t4(0:255) = [(ieor(shiftr(t3(i_), 8), t0(iand(t3(i_), low_byte))), i_=0, 255)]
-   integer(int32), parameter :: t5(0:255) = [(ieor(shiftr(t4(i_), 8), t0(iand(t4(i_), low_byte))), i_=0, 255)]
-   integer(int32), parameter :: t6(0:255) = [(ieor(shiftr(t5(i_), 8), t0(iand(t5(i_), low_byte))), i_=0, 255)]
-   integer(int32), parameter :: t7(0:255) = [(ieor(shiftr(t6(i_), 8), t0(iand(t6(i_), low_byte))), i_=0, 255)]
+   integer(int32), parameter :: t1(0:255) = ieor(shiftr(t0, 8), t0(iand(t0, low_byte)))
+   integer(int32), parameter :: t2(0:255) = ieor(shiftr(t1, 8), t0(iand(t1, low_byte)))
+   integer(int32), parameter :: t3(0:255) = ieor(shiftr(t2, 8), t0(iand(t2, low_byte)))
+   integer(int32), parameter :: t4(0:255) = ieor(shiftr(t3, 8), t0(iand(t3, low_byte)))
+   integer(int32), parameter :: t5(0:255) = ieor(shiftr(t4, 8), t0(iand(t4, low_byte)))
+   integer(int32), parameter :: t6(0:255) = ieor(shiftr(t5, 8), t0(iand(t5, low_byte)))
+   integer(int32), parameter :: t7(0:255) = ieor(shiftr(t6, 8), t0(iand(t6, low_byte)))
 
 contains
 

@@ -82,11 +82,12 @@ contains
       if (info /= 0) self%silent = .true.
    end subroutine new_film_lanes
 
-   subroutine acceleration(self, inlet, outlet, q, v, a, closed)
+   subroutine acceleration(self, first, last, inlet, outlet, q, v, a, closed)
       class(film_lanes), intent(inout) :: self
+      integer, intent(in) :: first, last
       real(wp), intent(in) :: inlet, outlet
-      real(wp), intent(in) :: q(self%width, self%dofs), v(self%width, self%dofs)
-      real(wp), intent(out) :: a(self%width, self%dofs)
+      real(wp), intent(in) :: q(first:last, self%dofs), v(first:last, self%dofs)
+      real(wp), intent(out) :: a(first:last, self%dofs)
       integer, intent(out) :: closed
       type(film_state) :: state
 
@@ -218,7 +219,7 @@ contains
       real(wp), intent(out) :: q_scale(self%width, self%dofs), v_scale(self%width, self%dofs)
 
       q_scale = span(1)*self%reed%hole_area/self%valve%hole_stiffness
-      q_scale = min(q_scale, 10.0_wp*self%valve%gap)
+      q_scale = min(q_scale, self%valve%gap/3.0_wp)
       where (.not. q_scale > 0.0_wp) q_scale = 1.0e-3_wp*self%valve%gap
       v_scale = self%valve%omega*q_scale
    end subroutine scales

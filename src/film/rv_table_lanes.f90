@@ -70,25 +70,27 @@ contains
       allocate(self%hole(w), source=reed%static_hole)
    end subroutine new_table_lanes
 
-   subroutine acceleration(self, inlet, outlet, q, v, a, closed)
+   subroutine acceleration(self, first, last, inlet, outlet, q, v, a, closed)
       class(table_lanes), intent(inout) :: self
+      integer, intent(in) :: first, last
       real(wp), intent(in) :: inlet, outlet
-      real(wp), intent(in) :: q(self%width, self%dofs), v(self%width, self%dofs)
-      real(wp), intent(out) :: a(self%width, self%dofs)
+      real(wp), intent(in) :: q(first:last, self%dofs), v(first:last, self%dofs)
+      real(wp), intent(out) :: a(first:last, self%dofs)
       integer, intent(out) :: closed
-      real(wp), dimension(self%width) :: x, y, y_slope, area, area_slope
+      real(wp), dimension(first:last) :: x, y, y_slope, area, area_slope
       real(wp) :: per_y, film
       integer :: i
 
-      x = 1.0_wp + q(:, 1)*self%inverse_gap
+      x = 1.0_wp + q(:, 1)*self%inverse_gap(first:last)
       call self%table%look_up_all(x, y, y_slope, area, area_slope)
-      do i = 1, self%width
+      do i = first, last
          per_y = 1.0_wp/y(i)
          film = self%film_scale(i)*(per_y*per_y*per_y)
          a(i, 1) = ((self%inlet(i)*inlet - self%outlet(i)*outlet)*(self%hole(i) + area(i)) - self%stiffness(i)*q(i, 1) &
             & - (self%damping(i) + film)*v(i, 1))*self%inverse_mass(i)
       end do
       closed = first_closed(self%table%lowest, x)
+      if (closed > 0) closed = first - 1 + closed
    end subroutine acceleration
 
    subroutine linearise(self, first, last, inlet, outlet, q, v, a, a_q, a_v, closed)
@@ -285,7 +287,7 @@ contains
       real(wp), intent(in) :: span(self%width)
       real(wp), intent(out) :: q_scale(self%width, self%dofs), v_scale(self%width, self%dofs)
 
-      q_scale(:, 1) = min(span*self%hole/self%stiffness, 10.0_wp*self%gap)
+      q_scale(:, 1) = min(span*self%hole/self%stiffness, self%gap/3.0_wp)
       where (.not. q_scale(:, 1) > 0.0_wp) q_scale(:, 1) = 1.0e-3_wp*self%gap
       v_scale(:, 1) = q_scale(:, 1)*sqrt(self%stiffness*self%inverse_mass)
    end subroutine scales

@@ -352,14 +352,10 @@ static int configure(rv_arkode *self, const char *table, double first_step) {
   TRY(ARKStepSetErrHandlerFn(m, keep_message, self));
 #endif
   TRY(ARK(SetUserData)(m, self));
-  if (self->stage == NULL) {
-    TRY(ARKStepSetTableName(m, "ARKODE_DIRK_NONE", table));
-  } else {
-    TRY(ARKStepSetTableName(m, table, "ARKODE_ERK_NONE"));
-    TRY(ARK(SetNonlinearSolver)(m, self->solver));
-    TRY(ARK(SetDeduceImplicitRhs)(m, SUNTRUE));
-    TRY(ARK(SetPredictorMethod)(m, 0));
-  }
+  TRY(ARKStepSetTableName(m, table, "ARKODE_ERK_NONE"));
+  TRY(ARK(SetNonlinearSolver)(m, self->solver));
+  TRY(ARK(SetDeduceImplicitRhs)(m, SUNTRUE));
+  TRY(ARK(SetPredictorMethod)(m, 0));
   TRY(ARK(WFtolerances)(m, call_weight));
   TRY(ARK(SetInterpolantType)(m, ARK_INTERP_LAGRANGE));
   TRY(ARK(SetMaxNumSteps)(m, -1));
@@ -377,7 +373,20 @@ static int configure(rv_arkode *self, const char *table, double first_step) {
   return 0;
 }
 
-static int build(rv_arkode *self, double t0, const double *y0, const char *table, double first_step) {
+/* A state to or from its halves. */
+static void put_state(rv_arkode *self, const double *q, const double *v) {
+  const size_t half = (size_t)count(self->y) / 2;
+  memcpy(values(self->y), q, half * sizeof(double));
+  memcpy(values(self->y) + half, v, half * sizeof(double));
+}
+
+static void get_state(rv_arkode *self, double *q, double *v) {
+  const size_t half = (size_t)count(self->y) / 2;
+  memcpy(q, values(self->y), half * sizeof(double));
+  memcpy(v, values(self->y) + half, half * sizeof(double));
+}
+
+static int build(rv_arkode *self, double t0, const double *q0, const double *v0, const char *table, double first_step) {
   if (CONTEXT_CREATE(&self->context) != 0) {
     snprintf(self->message, sizeof self->message, "SUNContext_Create failed");
     return -1;
@@ -385,9 +394,8 @@ static int build(rv_arkode *self, double t0, const double *y0, const char *table
   self->y = lanes_new(self->context, self->lanes, self->states);
   self->solver = stage_solver_new(self);
   if (self->y != NULL) {
-    memcpy(values(self->y), y0, (size_t)count(self->y) * sizeof(double));
-    self->memory = ARKStepCreate(self->stage == NULL ? call_rhs : NULL, self->stage == NULL ? NULL : call_rhs, t0,
-                                 self->y, self->context);
+    put_state(self, q0, v0);
+    self->memory = ARKStepCreate(NULL, call_rhs, t0, self->y, self->context);
   }
 #if SUNDIALS_NUMBER >= 701
   self->controller = SUNAdaptController_PID(self->context);
@@ -400,7 +408,7 @@ static int build(rv_arkode *self, double t0, const double *y0, const char *table
   return configure(self, table, first_step);
 }
 
-int rv_arkode_new(int lanes, int states, double t0, const double *y0, const char *table, double first_step, rv_rhs_fn rhs,
+int rv_arkode_new(int lanes, int states, double t0, const double *q0, const double *v0, const char *table, double first_step, rv_rhs_fn rhs,
                   rv_stage_fn stage, rv_weight_fn weight, void *data, rv_arkode **out) {
   rv_arkode *self = calloc(1, sizeof *self);
   *out = self;
@@ -411,23 +419,23 @@ int rv_arkode_new(int lanes, int states, double t0, const double *y0, const char
   self->stage = stage;
   self->weight = weight;
   self->data = data;
-  return build(self, t0, y0, table, first_step);
+  return build(self, t0, q0, v0, table, first_step);
 }
 
-int rv_arkode_step(rv_arkode *self, double t_stop, double *t, double *y) {
+int rv_arkode_step(rv_arkode *self, double t_stop, double *t, double *q, double *v) {
   self->message[0] = '\0';
   TRY(ARK(SetStopTime)(self->memory, t_stop));
   /* A step that does not move the time would be repeated for ever: fail instead. */
   TRY(ARK(SetMinStep)(self->memory, 4.0 * DBL_EPSILON * fmax(fabs(*t), fabs(t_stop))));
   const int flag = ARK(Evolve)(self->memory, t_stop, self->y, t, ARK_ONE_STEP);
   if (flag < 0) return failed(self, "ARKODE", flag);
-  memcpy(y, values(self->y), (size_t)count(self->y) * sizeof(double));
+  get_state(self, q, v);
   return flag == ARK_TSTOP_RETURN ? RV_AT_STOP : RV_STEPPED;
 }
 
-int rv_arkode_restart(rv_arkode *self, double t, const double *y) {
+int rv_arkode_restart(rv_arkode *self, double t, const double *q, const double *v) {
   self->message[0] = '\0';
-  memcpy(values(self->y), y, (size_t)count(self->y) * sizeof(double));
+  put_state(self, q, v);
   return failed(self, "restart", ARK(Reset)(self->memory, t, self->y));
 }
 

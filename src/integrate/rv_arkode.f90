@@ -11,12 +11,12 @@ module rv_arkode
    integer(c_int), parameter :: rv_at_stop = 1   !! one step done, the stop time is reached
 
    interface
-      integer(c_int) function rv_arkode_new(lanes, states, t0, y0, table, first_step, rhs, stage, weight, data, self) &
+      integer(c_int) function rv_arkode_new(lanes, states, t0, q0, v0, table, first_step, rhs, stage, weight, data, self) &
          & bind(C)
          import :: c_char, c_double, c_funptr, c_int, c_ptr
          integer(c_int), value :: lanes, states
          real(c_double), value :: t0
-         real(c_double), intent(in) :: y0(*)
+         real(c_double), intent(in) :: q0(*), v0(*)
          character(kind=c_char), intent(in) :: table(*)
          real(c_double), value :: first_step
          type(c_funptr), value :: rhs, stage, weight
@@ -24,19 +24,19 @@ module rv_arkode
          type(c_ptr), intent(out) :: self
       end function rv_arkode_new
 
-      integer(c_int) function rv_arkode_step(self, t_stop, t, y) bind(C)
+      integer(c_int) function rv_arkode_step(self, t_stop, t, q, v) bind(C)
          import :: c_double, c_int, c_ptr
          type(c_ptr), value :: self
          real(c_double), value :: t_stop
          real(c_double), intent(inout) :: t
-         real(c_double), intent(inout) :: y(*)
+         real(c_double), intent(inout) :: q(*), v(*)
       end function rv_arkode_step
 
-      integer(c_int) function rv_arkode_restart(self, t, y) bind(C)
+      integer(c_int) function rv_arkode_restart(self, t, q, v) bind(C)
          import :: c_double, c_int, c_ptr
          type(c_ptr), value :: self
          real(c_double), value :: t
-         real(c_double), intent(in) :: y(*)
+         real(c_double), intent(in) :: q(*), v(*)
       end function rv_arkode_restart
 
       integer(c_int) function rv_arkode_fix_step(self, step) bind(C)

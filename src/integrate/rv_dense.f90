@@ -72,19 +72,23 @@ contains
 
    !> The root of a polynomial that changes sign between lo and hi, to rounding: Newton, held in by bisection, from a
    !> guess if there is one.
-   pure real(wp) function first_root(c, lo, hi, guess) result(s)
+   pure real(wp) function first_root(c, lo, hi, guess, near) result(s)
       real(wp), intent(in) :: c(0:)   !! of degree five at most
       real(wp), intent(in) :: lo, hi
       real(wp), intent(in), optional :: guess
-      real(wp), parameter :: near = 1.0e-9_wp   ! Newton squares it
+      real(wp), intent(in), optional :: near   !! a last correction below it ends the search; Newton squares it
+      real(wp), parameter :: nearest = 1.0e-9_wp
       real(wp) :: b(0:5), left, right, f, slope, f_left, f_right, newton
       integer :: iteration
+      real(wp) :: enough
       logical :: last
 
       b = 0.0_wp
       b(:size(c) - 1) = c
       left = lo
       right = hi
+      enough = nearest
+      if (present(near)) enough = near
       s = left
       call evaluate(b, left, f_left, slope)
       if (abs(f_left) <= 0.0_wp) return
@@ -107,7 +111,7 @@ contains
          newton = left
          if (abs(f) < abs(slope)) newton = s - f/slope
          if (newton > left .and. newton < right) then
-            last = abs(newton - s) <= near
+            last = abs(newton - s) <= enough
             s = newton
             if (last) return
          else

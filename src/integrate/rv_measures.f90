@@ -5,7 +5,7 @@
 !> rounding. Everything is of the first cycle. What did not happen is NaN.
 module rv_measures
    use, intrinsic :: ieee_arithmetic, only : ieee_value, ieee_quiet_nan
-   use rv_kinds, only : wp
+   use rv_kinds, only : wp, i8
    use rv_crossing, only : crossings
    use rv_dense, only : value_at, motion_at, derivative, first_root
    use rv_pressure, only : pressure_history
@@ -47,6 +47,7 @@ module rv_measures
       logical, allocatable :: closed(:)           !! a lane that has failed: its measures stay
       real(wp), allocatable :: last(:, :)         !! those measures
       real(wp), allocatable :: force(:), rate(:)  !! that force and its rate at the end of the last step [N], [N s-1]
+      real(wp), allocatable :: force_before(:), rate_before(:)   !! and at its start
    contains
       procedure :: observe
       procedure :: results
@@ -82,7 +83,8 @@ contains
       self%lowest = u
       allocate(self%closed(size(u)), source=.false.)
       allocate(self%last(n_measures, size(u)))
-      allocate(self%largest_force(size(u)), self%force(size(u)), self%rate(size(u)), source=0.0_wp)
+      allocate(self%largest_force(size(u)), self%force(size(u)), self%rate(size(u)), &
+         & self%force_before(size(u)), self%rate_before(size(u)), source=0.0_wp)
    end subroutine new_measure_lanes
 
    !> Take one more step into account. Steps come in order and none spans the event.
@@ -93,16 +95,12 @@ contains
       type(step_type), intent(in) :: step
       class(valve_lanes), intent(inout) :: lanes
       class(pressure_history), intent(in) :: history
-      real(wp), dimension(step%width) :: chance, force, rate
+      real(wp) :: chance(step%width)
       real(wp) :: inlet, outlet
-      integer :: lane(step%width), straight, i
+      integer :: lane(step%width), picked, straight, i, k
 
       if (step%t0 >= self%cycle_end) return
-      do i = 1, step%width
-         if (step%live(i) .or. self%closed(i)) cycle
-         self%last(:, i) = self%results(i)
-         self%closed(i) = .true.
-      end do
+      if (.not. step%all_live) call close_failed(self, step%live)
       self%now = step%t1
       if (step%t1 <= self%event) then
          call look_up(step%width, step%t1 - step%t0, step%u0, step%u1, step%w0, step%w1, self%next_up, &
@@ -113,26 +111,77 @@ contains
             & chance)
       end if
       straight = 0
-      do i = 1, step%width
-         if (.not. chance(i) >= 0.0_wp) cycle
+      call pick(step%width, chance, lane, picked)
+      do k = 1, picked
+         i = lane(k)
          if (.not. step%live(i)) cycle
          if (step%w0(i)*step%w1(i) < 0.0_wp) then
             call observe_turn(self, step, i)
          else
             straight = straight + 1
-            lane(straight) = i
+            lane(straight) = i   ! behind k
          end if
       end do
       if (straight > 0) call observe_straight(self, step, lane(:straight))
       call history%factors(step%t1, inlet, outlet)
-      call lanes%film_forces(inlet, outlet, step%q1, step%v1, step%a1, force, rate)
-      call look_for_peaks(step%width, step%t1 - step%t0, self%force, self%rate, force, rate, self%largest_force, chance)
-      do i = 1, step%width
-         if (chance(i) > 0.0_wp) call find_peak(self, step, i, lanes, history, force(i), rate(i))
+      call swap(self%force_before, self%force)
+      call swap(self%rate_before, self%rate)
+      call lanes%film_forces(inlet, outlet, step%q1, step%v1, step%a1, self%force, self%rate)
+      call look_for_peaks(step%width, step%t1 - step%t0, self%force_before, self%rate_before, self%force, self%rate, &
+         & self%largest_force, chance)
+      call pick(step%width, chance, lane, picked)
+      do k = 1, picked
+         call find_peak(self, step, lane(k), lanes, history)
       end do
-      self%force = force
-      self%rate = rate
    end subroutine observe
+
+   pure subroutine swap(a, b)
+      real(wp), allocatable, intent(inout) :: a(:), b(:)
+      real(wp), allocatable :: c(:)
+
+      call move_alloc(a, c)
+      call move_alloc(b, a)
+      call move_alloc(c, b)
+   end subroutine swap
+
+   !> Keep what is known of lanes that have failed.
+   pure subroutine close_failed(self, live)
+      class(measure_lanes), intent(inout) :: self
+      logical, intent(in) :: live(:)
+      integer :: i
+
+      do i = 1, size(live)
+         if (live(i) .or. self%closed(i)) cycle
+         self%last(:, i) = self%results(i)
+         self%closed(i) = .true.
+      end do
+   end subroutine close_failed
+
+   !> Lanes whose `chance` is not negative. They are few: many lanes together are looked at first.
+   pure subroutine pick(n, chance, lane, picked)
+      integer, intent(in) :: n
+      real(wp), intent(in) :: chance(n)
+      integer, intent(out) :: lane(n)
+      integer, intent(out) :: picked   !! how many of `lane` count
+      integer, parameter :: many = 32
+      integer(i8) :: some
+      integer :: first, last, i
+
+      picked = 0
+      do first = 1, n, many
+         last = min(first + many - 1, n)
+         some = 0_i8
+         do i = first, last
+            some = ior(some, merge(1_i8, 0_i8, chance(i) >= 0.0_wp))
+         end do
+         if (some == 0_i8) cycle
+         do i = first, last
+            if (.not. chance(i) >= 0.0_wp) cycle
+            picked = picked + 1
+            lane(picked) = i
+         end do
+      end do
+   end subroutine pick
 
    !> Which lanes may cross a level upwards within a step, or reach a new maximum inside it: those whose `chance` is not
    !> negative. Notes the step's end as a maximum.
@@ -188,21 +237,23 @@ contains
    end subroutine look_around
 
    !> Which lanes' film force may have a new maximum inside a step, those whose `chance` is positive: it rises at the
-   !> start, falls at the end, and the tangents there meet above the largest so far. Notes the force at the end.
+   !> start, falls at the end, and the tangents there meet above the largest so far. Notes the force at the end. Of
+   !> `chance` only the sign counts: it is by how much they do times what would be divided by.
    pure subroutine look_for_peaks(n, dt, force0, rate0, force1, rate1, largest, chance)
       integer, intent(in) :: n
       real(wp), intent(in) :: dt
       real(wp), dimension(n), intent(in) :: force0, rate0, force1, rate1   !! at both ends [N], [N s-1]
       real(wp), intent(inout) :: largest(n)
       real(wp), intent(out) :: chance(n)
-      real(wp) :: higher, above
+      real(wp) :: higher, above, bend
       integer :: i
 
       do i = 1, n
          largest(i) = max(largest(i), force1(i))
          higher = max(force0(i), force1(i))
-         above = force0(i) + rate0(i)*(force1(i) - rate1(i)*dt - force0(i))/(rate0(i) - rate1(i)) - higher
-         above = higher + allowance*above - largest(i)
+         bend = rate0(i) - rate1(i)
+         above = rate0(i)*(force1(i) - rate1(i)*dt - force0(i)) - (higher - force0(i))*bend
+         above = allowance*above + (higher - largest(i))*bend
          chance(i) = merge(above, -1.0_wp, min(rate0(i), -rate1(i)) > 0.0_wp)
       end do
    end subroutine look_for_peaks
@@ -297,7 +348,7 @@ contains
 
       upwards = step%t1 <= self%event
       c = step%tip_path(i)
-      turn = first_root(derivative(c), 0.0_wp, 1.0_wp, step%w0(i)/(step%w0(i) - step%w1(i)))
+      turn = first_root(derivative(c), 0.0_wp, 1.0_wp, step%w0(i)/(step%w0(i) - step%w1(i)), near=1.0e-4_wp)   ! u is flat there
       u_turn = value_at(c, turn)
       if (upwards) then
          self%highest(i) = max(self%highest(i), u_turn)
@@ -346,13 +397,12 @@ contains
    !>
    !> Where the film settles the velocity many times within a step, the motion is quasi-static and the forces at the ends
    !> of the steps tell it; accelerations there, and so the dense output, are the integration's error times that rate.
-   subroutine find_peak(self, step, i, lanes, history, force_now, rate_now)
+   subroutine find_peak(self, step, i, lanes, history)
       class(measure_lanes), intent(inout) :: self
       type(step_type), intent(in) :: step
       integer, intent(in) :: i
       class(valve_lanes), intent(inout) :: lanes
       class(pressure_history), intent(in) :: history
-      real(wp), intent(in) :: force_now, rate_now   !! at the end of the step [N], [N s-1]
       real(wp) :: path(0:5, most_dofs), dt, left, right, rate_left, rate_right, weight_left, weight_right, s, rate, flat
       real(wp), dimension(most_dofs) :: q, v, a
       integer :: k
@@ -362,14 +412,14 @@ contains
       do k = 1, lanes%dofs
          path(:, k) = step%path(i, k)
       end do
-      flat = max(1.0e-4_wp*self%resolution, 1.0e-12_wp)*self%largest_force(i)   ! what the peak may lie above the last look
+      flat = max(1.0e-2_wp*self%resolution, 1.0e-12_wp)*self%largest_force(i)   ! what the peak may lie above the last look
       left = 0.0_wp
       right = 1.0_wp
-      rate_left = self%rate(i)
-      rate_right = rate_now
+      rate_left = self%rate_before(i)
+      rate_right = self%rate(i)
       weight_left = rate_left
       weight_right = rate_right
-      s = top_of_cubic(force_now - self%force(i), dt*rate_left, dt*rate_right)
+      s = top_of_cubic(self%force(i) - self%force_before(i), dt*rate_left, dt*rate_right)
       do k = 1, 60
          rate = rate_at(s)
          ! the top of a parabola lies rate^2/(2 bend) above

@@ -10,6 +10,7 @@ module rv_step
    type :: step_type
       integer :: width = 0
       logical, allocatable :: live(:)                          !! lanes that have not failed
+      logical :: all_live = .true.
       real(wp) :: t0 = 0.0_wp, t1 = 0.0_wp                     !! the step's ends [s]
       real(wp), allocatable :: q0(:, :), v0(:, :), a0(:, :)    !! at t0
       real(wp), allocatable :: q1(:, :), v1(:, :), a1(:, :)    !! at t1
@@ -17,8 +18,7 @@ module rv_step
       real(wp), allocatable :: w0(:), w1(:)                    !! tip velocity [m s-1]
       real(wp), allocatable, private :: tip(:)                 !! tip displacement per unit of each q, (dofs)
    contains
-      procedure :: advance
-      procedure :: land
+      procedure :: go_on
       procedure :: path
       procedure :: calm_path
       procedure :: tip_path
@@ -37,47 +37,63 @@ contains
 
       self%width = size(q, 1)
       self%live = live
+      self%all_live = all(live)
       self%tip = tip
       self%q1 = q
       self%v1 = v
       self%a1 = a
       self%u1 = matmul(q, tip)
       self%w1 = matmul(v, tip)
+      self%t0 = t
       self%t1 = t
-      allocate(self%q0, self%v0, self%a0, mold=q)
-      allocate(self%u0, self%w0, mold=self%u1)
-      call self%advance()
+      self%q0 = q
+      self%v0 = v
+      self%a0 = a
+      self%u0 = self%u1
+      self%w0 = self%w1
    end subroutine new_step
 
-   !> Let the next step begin where this one ended.
-   pure subroutine advance(self)
+   !> The next step, from this one's end to a state at t, which moves in; old arrays come back.
+   pure subroutine go_on(self, t, q, v, a)
       class(step_type), intent(inout) :: self
-
-      self%t0 = self%t1
-      self%q0(:, :) = self%q1
-      self%v0(:, :) = self%v1
-      self%a0(:, :) = self%a1
-      self%u0(:) = self%u1
-      self%w0(:) = self%w1
-   end subroutine advance
-
-   !> End the step at t1. The accelerations a1 there are the caller's to set.
-   pure subroutine land(self, t1, q, v)
-      class(step_type), intent(inout) :: self
-      real(wp), intent(in) :: t1
-      real(wp), intent(in) :: q(self%width, size(self%tip)), v(self%width, size(self%tip))
+      real(wp), intent(in) :: t   !! [s]
+      real(wp), allocatable, intent(inout) :: q(:, :), v(:, :), a(:, :)
       integer :: k
 
-      self%t1 = t1
-      self%q1(:, :) = q
-      self%v1(:, :) = v
-      self%u1(:) = self%tip(1)*q(:, 1)
-      self%w1(:) = self%tip(1)*v(:, 1)
+      self%t0 = self%t1
+      self%t1 = t
+      call turn(self%q0, self%q1, q)
+      call turn(self%v0, self%v1, v)
+      call turn(self%a0, self%a1, a)
+      call exchange(self%u0, self%u1)
+      call exchange(self%w0, self%w1)
+      self%u1(:) = self%tip(1)*self%q1(:, 1)
+      self%w1(:) = self%tip(1)*self%v1(:, 1)
       do k = 2, size(self%tip)
-         self%u1(:) = self%u1 + self%tip(k)*q(:, k)
-         self%w1(:) = self%w1 + self%tip(k)*v(:, k)
+         self%u1(:) = self%u1 + self%tip(k)*self%q1(:, k)
+         self%w1(:) = self%w1 + self%tip(k)*self%v1(:, k)
       end do
-   end subroutine land
+   end subroutine go_on
+
+   pure subroutine exchange(a, b)
+      real(wp), allocatable, intent(inout) :: a(:), b(:)
+      real(wp), allocatable :: c(:)
+
+      call move_alloc(a, c)
+      call move_alloc(b, a)
+      call move_alloc(c, b)
+   end subroutine exchange
+
+   !> The new end comes in, the old end becomes the start, and the old start comes out.
+   pure subroutine turn(start, end, new)
+      real(wp), allocatable, intent(inout) :: start(:, :), end(:, :), new(:, :)
+      real(wp), allocatable :: spare(:, :)
+
+      call move_alloc(start, spare)
+      call move_alloc(end, start)
+      call move_alloc(new, end)
+      call move_alloc(spare, new)
+   end subroutine turn
 
    !> Dense output of displacement k of lane i: coefficients of q(s), s = (t - t0)/(t1 - t0).
    pure function path(self, i, k) result(c)

@@ -7,6 +7,7 @@
 !> Eq. (27) has C = 0. The cases of a group are lanes: structure of arrays, one entry a case.
 module rv_lumped
    use rv_kinds, only : wp, i8
+   use rv_largest, only : largest
    use rv_valve_lanes, only : valve_lanes, no_film_gap
    implicit none
    private
@@ -41,6 +42,7 @@ module rv_lumped
       procedure :: correction
       procedure :: stiffness_ratio
       procedure :: decay
+      procedure :: fastest_decay
       procedure :: film_force
       procedure :: film_forces
       procedure :: equilibrium
@@ -85,19 +87,21 @@ contains
    end subroutine new_lumped_lanes
 
    !> Right-hand side v' [m s-2].
-   subroutine acceleration(self, inlet, outlet, q, v, a, closed)
+   subroutine acceleration(self, first, last, inlet, outlet, q, v, a, closed)
       class(lumped_lanes), intent(inout) :: self
+      integer, intent(in) :: first, last
       real(wp), intent(in) :: inlet, outlet                !! factors of the pressure history
-      real(wp), intent(in) :: q(self%width, self%dofs)     !! tip displacement u [m]
-      real(wp), intent(in) :: v(self%width, self%dofs)     !! tip velocity [m s-1]
-      real(wp), intent(out) :: a(self%width, self%dofs)    !! [m s-2]
+      real(wp), intent(in) :: q(first:last, self%dofs)     !! tip displacement u [m]
+      real(wp), intent(in) :: v(first:last, self%dofs)     !! tip velocity [m s-1]
+      real(wp), intent(out) :: a(first:last, self%dofs)    !! [m s-2]
       integer, intent(out) :: closed
       logical :: some
 
-      call accelerate(self%width, inlet, outlet, self%push_in, self%push_out, self%stiffness, self%damping, &
-         & self%squeeze, self%gap, self%fastest, q, v, a, some)
+      call accelerate(last - first + 1, inlet, outlet, self%push_in(first:last), self%push_out(first:last), &
+         & self%stiffness(first:last), self%damping(first:last), self%squeeze(first:last), self%gap(first:last), &
+         & self%fastest(first:last), q, v, a, some)
       closed = 0
-      if (some) closed = first_closed(q(:, 1), self%gap)
+      if (some) closed = first - 1 + first_closed(q(:, 1), self%gap(first:last))
    end subroutine acceleration
 
    !> Right-hand side and its derivatives. At the switch v = 0 the closing side's slope is taken.
@@ -226,6 +230,28 @@ contains
       decay = self%damping(lane) + self%squeeze(lane)/(q(1) + self%gap(lane))**3
    end function decay
 
+   pure real(wp) function fastest_decay(self, q, v)
+      class(lumped_lanes), intent(in) :: self
+      real(wp), intent(in), dimension(self%width, self%dofs) :: q, v
+      real(wp) :: rate(self%width)
+
+      call decays(self%width, self%damping, self%squeeze, self%gap, self%fastest, q, v, rate)
+      fastest_decay = largest(rate)
+   end function fastest_decay
+
+   pure subroutine decays(n, damping, squeeze, gap, fastest, q, v, rate)
+      integer, intent(in) :: n
+      real(wp), dimension(n), intent(in) :: damping, squeeze, gap, fastest, q, v
+      real(wp), intent(out) :: rate(n)
+      real(wp) :: h
+      integer :: i
+
+      do i = 1, n
+         h = q(i) + gap(i)
+         rate(i) = max(0.0_wp, damping(i) + merge(squeeze(i), 0.0_wp, v(i) <= fastest(i))/(h*h*h))
+      end do
+   end subroutine decays
+
    !> -F_s of Eq. (26) [N] and its rate.
    subroutine film_force(self, lane, inlet, outlet, q, v, a, force, rate)
       class(lumped_lanes), intent(inout) :: self
@@ -255,11 +281,12 @@ contains
       real(wp), intent(in) :: fastest   !! velocity above which the film does not act [m s-1]
       real(wp), intent(in) :: h, v, a   !! u + g0 [m], u' [m s-1], u'' [m s-2]
       real(wp), intent(out) :: force, rate
-      real(wp) :: film
+      real(wp) :: film, per_h
 
-      film = merge(squeeze, 0.0_wp, v <= fastest)/(h*h*h)
+      per_h = 1.0_wp/h
+      film = merge(squeeze, 0.0_wp, v <= fastest)*(per_h*per_h*per_h)
       force = -film*v
-      rate = -film*(a - 3.0_wp*v*v/h)
+      rate = -film*(a - 3.0_wp*v*v*per_h)
    end subroutine resist
 
    !> u = (p_in - p_out) A/k [m].
@@ -281,7 +308,7 @@ contains
       real(wp), intent(out) :: q_scale(self%width, self%dofs)
       real(wp), intent(out) :: v_scale(self%width, self%dofs)
 
-      q_scale(:, 1) = min(span*self%area/self%stiffness, 10.0_wp*self%gap)
+      q_scale(:, 1) = min(span*self%area/self%stiffness, self%gap/3.0_wp)
       where (.not. q_scale(:, 1) > 0.0_wp) q_scale(:, 1) = 1.0e-3_wp*min(self%gap, 1.0e-3_wp)
       v_scale(:, 1) = q_scale(:, 1)*sqrt(self%stiffness)
    end subroutine scales

@@ -21,6 +21,7 @@ module rv_pressure
       procedure(factors_at), deferred :: factors
       procedure(span_of), deferred :: span
       procedure(stops_until), deferred :: stops
+      procedure :: is_constant => not_known
    end type pressure_history
 
    abstract interface
@@ -57,6 +58,7 @@ module rv_pressure
       procedure :: factors => square_factors
       procedure :: span => square_span
       procedure :: stops => square_stops
+      procedure :: is_constant => square_is_constant
    end type square_wave
 
    !> Sampled pressures with a shape-preserving cubic between the samples; constant outside them.
@@ -74,6 +76,16 @@ module rv_pressure
    end type pressure_trace
 
 contains
+
+   !> Whether the factors are constant between two instants, neither behind the next stop; false where that is not known.
+   pure logical function not_known(self, from, to)
+      class(pressure_history), intent(in) :: self
+      real(wp), intent(in) :: from, to   !! [s]
+
+      associate (unused => [self%start, from, to])
+      end associate
+      not_known = .false.
+   end function not_known
 
    !> Check the data and build a square wave. On failure `self` is a default wave.
    subroutine new_square_wave(self, period, transition, error, event)
@@ -118,6 +130,16 @@ contains
       end if
       outlet = 1.0_wp
    end subroutine square_factors
+
+   pure logical function square_is_constant(self, from, to)
+      class(square_wave), intent(in) :: self
+      real(wp), intent(in) :: from, to
+      real(wp) :: before, after, outlet
+
+      call self%factors(from, before, outlet)
+      call self%factors(to, after, outlet)
+      square_is_constant = .not. abs(before - after) > 0.0_wp
+   end function square_is_constant
 
    pure real(wp) function square_span(self, inlet, outlet) result(span)
       class(square_wave), intent(in) :: self

@@ -10,13 +10,15 @@ contains
    !> The order that sorts the columns of `key` rising, the first row first; equal columns keep their order.
    !>
    !> Bottom-up merge sort, O(n log n).
-   pure function sorted_order(key) result(order)
-      real(wp), intent(in) :: key(:, :)    !! (keys, n), no NaN
-      integer :: order(size(key, 2))
-      integer :: other(size(key, 2))
+   pure function sorted_order(keys) result(order)
+      real(wp), intent(in) :: keys(:, :)    !! (keys, n), no NaN
+      integer :: order(size(keys, 2))
+      integer :: other(size(keys, 2))
+      real(wp), allocatable :: key(:, :)
       integer :: n, run, lo, i
 
-      n = size(key, 2)
+      n = size(keys, 2)
+      key = keys(pack([(i, i = 1, size(keys, 1))], [(any(abs(keys(i, :) - keys(i, 1)) > 0.0_wp), i = 1, size(keys, 1))]), :)
       order = [(i, i = 1, n)]
       run = 1
       do while (run < n)

@@ -34,19 +34,21 @@ module rv_valve_lanes
       procedure :: correction
       procedure :: stiffness_ratio
       procedure :: decay
+      procedure :: fastest_decay
       procedure :: film_forces
       procedure :: pressure_field
    end type valve_lanes
 
    abstract interface
-      !> Accelerations. `closed` is the first lane whose film is closed, or 0.
-      subroutine acceleration_of(self, inlet, outlet, q, v, a, closed)
+      !> Accelerations of lanes first..last. `closed` is the first of them whose film is closed, or 0.
+      subroutine acceleration_of(self, first, last, inlet, outlet, q, v, a, closed)
          import :: valve_lanes, wp
          class(valve_lanes), intent(inout) :: self
+         integer, intent(in) :: first, last
          real(wp), intent(in) :: inlet, outlet                  !! factors of the pressure history
-         real(wp), intent(in) :: q(self%width, self%dofs)
-         real(wp), intent(in) :: v(self%width, self%dofs)
-         real(wp), intent(out) :: a(self%width, self%dofs)
+         real(wp), intent(in) :: q(first:last, self%dofs)
+         real(wp), intent(in) :: v(first:last, self%dofs)
+         real(wp), intent(out) :: a(first:last, self%dofs)
          integer, intent(out) :: closed
       end subroutine acceleration_of
 
@@ -153,6 +155,20 @@ contains
       end associate
       decay = 0.0_wp
    end function decay
+
+   !> The largest decay of all lanes [s-1], of those whose film acts at velocities v. Models of many lanes have a faster one.
+   pure real(wp) function fastest_decay(self, q, v)
+      class(valve_lanes), intent(in) :: self
+      real(wp), intent(in), dimension(self%width, self%dofs) :: q, v
+      integer :: i
+
+      associate (unused => v)
+      end associate
+      fastest_decay = 0.0_wp
+      do i = 1, self%width
+         fastest_decay = max(fastest_decay, self%decay(i, q(i, :)))
+      end do
+   end function fastest_decay
 
    !> film_force of all lanes, none where a lane has no film. Models of many lanes have a faster one of their own.
    subroutine film_forces(self, inlet, outlet, q, v, a, force, rate)

@@ -195,12 +195,12 @@ contains
       end do
    end subroutine bounds
 
-   !> Left to themselves, blocks follow the number of cases: 512 cases at least, 64 blocks, then 4096 cases; with the
-   !> model film 16 at least. Never fewer than 64 blocks where there could be.
+   !> Left to themselves, blocks follow the number of cases: 2048 cases at least, 64 blocks, then 8192 cases; with
+   !> the model film 16 to 256.
    subroutine default_size()
       integer, parameter :: side(7) = [5, 32, 64, 181, 256, 512, 1000]
-      integer, parameter :: largest(7) = [25, 512, 512, 512, 1024, 4096, 4096]
-      integer, parameter :: of_film(7) = [16, 16, 64, 496, 1024, 4096, 4096]
+      integer, parameter :: largest(7) = [25, 1024, 2048, 2048, 2048, 4096, 8192]
+      integer, parameter :: of_film(7) = [16, 16, 64, 256, 256, 256, 256]
       integer :: i
 
       do i = 1, size(side)

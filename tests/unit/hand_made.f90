@@ -76,11 +76,14 @@ contains
       real(wp), intent(in) :: factor(:)
       logical, intent(in) :: live(:)   !! lanes that have not failed
       type(step_type) :: step
+      real(wp), allocatable :: q(:, :), v(:, :), a(:, :)
 
       call new_step(step, t0, rows(curve, factor, 0, t0, t0), rows(curve, factor, 1, t0, t0), rows(curve, factor, 2, t0, t0), &
          & lanes%tip, live)
-      call step%land(t1, rows(curve, factor, 0, t0, t1), rows(curve, factor, 1, t0, t1))
-      step%a1 = rows(curve, factor, 2, t0, t1)
+      q = rows(curve, factor, 0, t0, t1)
+      v = rows(curve, factor, 1, t0, t1)
+      a = rows(curve, factor, 2, t0, t1)
+      call step%go_on(t1, q, v, a)
       call measures%observe(step, lanes, some_wave())
    end subroutine feed_step
 

@@ -44,17 +44,18 @@ contains
       allocate(self%stiffness(width, dofs, dofs), self%damping(width, dofs, dofs), source=0.0_wp)
    end subroutine new_spring_valve
 
-   subroutine acceleration(self, inlet, outlet, q, v, a, closed)
+   subroutine acceleration(self, first, last, inlet, outlet, q, v, a, closed)
       class(spring_valve), intent(inout) :: self
+      integer, intent(in) :: first, last
       real(wp), intent(in) :: inlet, outlet
-      real(wp), intent(in) :: q(self%width, self%dofs), v(self%width, self%dofs)
-      real(wp), intent(out) :: a(self%width, self%dofs)
+      real(wp), intent(in) :: q(first:last, self%dofs), v(first:last, self%dofs)
+      real(wp), intent(out) :: a(first:last, self%dofs)
       integer, intent(out) :: closed
       real(wp) :: h
       integer :: i
 
       closed = 0
-      do i = self%width, 1, -1
+      do i = last, first, -1
          h = dot_product(self%tip, q(i, :)) + self%gap(i)
          a(i, :) = self%load(i, :)*(self%inlet(i)*inlet - self%outlet(i)*outlet) - matmul(self%stiffness(i, :, :), q(i, :)) &
             & - matmul(self%damping(i, :, :), v(i, :)) - self%tip*self%squeeze(i)*dot_product(self%tip, v(i, :))/h**3
@@ -74,7 +75,7 @@ contains
       integer :: i, k
 
       self%calls = self%calls + 1
-      call self%acceleration(inlet, outlet, q, v, a, closed)
+      call self%acceleration(first, last, inlet, outlet, q, v, a, closed)
       do i = first, last
          h = dot_product(self%tip, q(i, :)) + self%gap(i)
          speed = dot_product(self%tip, v(i, :))

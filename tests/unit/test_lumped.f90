@@ -317,7 +317,7 @@ contains
       real(wp), dimension(size(u), 1, 1) :: a_u, a_v
       integer :: closed
 
-      call lanes%acceleration(inlet, outlet, as_state(u), as_state(v), a_out, closed)
+      call lanes%acceleration(1, lanes%width, inlet, outlet, as_state(u), as_state(v), a_out, closed)
       call lanes%linearise(1, lanes%width, inlet, outlet, as_state(u), as_state(v), a_again, a_u, a_v, closed)
       suite_agrees = suite_agrees .and. all(abs(a_out - a_again) <= 1.0e-9_wp*(abs(a_out) + 1.0_wp) .or. closed > 0)
       a = a_out(:, 1)

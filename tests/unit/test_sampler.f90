@@ -116,6 +116,7 @@ contains
       real(wp), intent(in), optional :: fails_at      !! instant from which the second lane is out
       type(spring_valve) :: lanes
       type(step_type) :: step
+      real(wp), allocatable :: q(:, :), v(:, :), a(:, :)
       integer :: k, last
 
       call new_spring_valve(lanes, 3, dofs)
@@ -130,10 +131,11 @@ contains
       call sampler%sample(step, lanes, history)
       do k = 2, last
          if (present(fails_at)) step%live(2) = knot(k - 1) < fails_at
-         call step%land(knot(k), state(curve, knot(k)), state(derivative(curve), knot(k)))
-         step%a1 = state(derivative(derivative(curve)), knot(k))
+         q = state(curve, knot(k))
+         v = state(derivative(curve), knot(k))
+         a = state(derivative(derivative(curve)), knot(k))
+         call step%go_on(knot(k), q, v, a)
          call sampler%sample(step, lanes, history)
-         call step%advance()
       end do
    end subroutine sampled
 

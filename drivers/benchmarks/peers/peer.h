@@ -36,7 +36,7 @@ static inline void peer_ready(struct peer_valve *valve, const struct peer_case *
    const double half = 0.5 * one->transition, middle = 0.5 * one->period;
    valve->data = *one;
    valve->steady = one->pressure * one->area / one->stiffness;
-   valve->u_scale = fmin(valve->steady, 10.0 * one->gap);
+   valve->u_scale = fmin(valve->steady, one->gap / 3.0);
    valve->v_scale = valve->u_scale * sqrt(one->stiffness / one->mass);
    valve->corner[0] = 0.0;
    valve->corner[1] = half;
