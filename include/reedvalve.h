@@ -11,7 +11,9 @@
  *    name ends in, too, as in summary.csv. Times, pressures, states and outputs of stepping are in SI: s, Pa, m, m/s, N,
  *    m3/s. What is not known or did not happen is NaN; so is a number that a call failed to tell.
  * Threads. Different valves may be used by different threads at once. One valve is for one thread at a time. A process
- *    that was forked from one whose sweeps ran on several threads runs its own on one. */
+ *    that was forked from one whose sweeps ran on several threads runs its own on one.
+ * Floating point. A caller who lets NaN or overflow stop the program (feenableexcept, -ffpe-trap) is not stopped by the
+ *    library's own, and finds flags and traps as they were. */
 #ifndef REEDVALVE_H
 #define REEDVALVE_H
 

@@ -59,7 +59,6 @@ fmi3Status fmi3Reset(fmi3Instance pointer) {
   if (self == NULL || !rv_fmu_open_valve(self, __func__)) return fmi3Error;
   for (int i = 0; i < n_inputs; i++) self->input[i] = 0;
   self->time = 0;
-  self->stop = INFINITY;
   self->mode = instantiated;
   return fmi3OK;
 }

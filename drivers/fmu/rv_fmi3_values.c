@@ -125,7 +125,8 @@ static bool is_open(instance *self, const char *function, fmi3ValueReference ref
 static fmi3Status set_real(instance *self, const char *function, fmi3ValueReference reference, double value) {
   parameter found;
   if (reference - first_input < n_inputs) {
-    if (!isfinite(value)) return rv_fmu_fail(self, function, "an input must be a finite number: valueReference %u", (unsigned)reference);
+    if (!isfinite(value))
+      return rv_fmu_fail(self, function, "an input must be a finite number: valueReference %u", (unsigned)reference);
     self->input[reference - first_input] = value;
     self->is_ready = self->mode == stepping;
     return fmi3OK;
@@ -166,15 +167,14 @@ fmi3Status fmi3SetInt64(fmi3Instance pointer, const fmi3ValueReference reference
                         size_t n_values) {
   instance *self = enter(pointer, __func__, before_steps | stepping, reference, n, value, n_values);
   fmi3Status status = self == NULL ? fmi3Error : fmi3OK;
-  char word[longest_word] = "";
   parameter found;
   for (size_t i = 0; i < n && status <= fmi3Warning; i++) {
+    char word[longest_word] = "";
     if (!is_open(self, __func__, reference[i], RV_CHOICE, &found)) return fmi3Error;
     if (value[i] > 0 && value[i] < INT32_MAX) rv_fmu_choice(found.key, (int)value[i], word, sizeof word);
     if (word[0] == '\0')
       return rv_fmu_fail(self, __func__, "%s has no choice number %" PRId64, found.name, value[i]);
     status = worse(status, settle(self, __func__, rv_valve_set_text(self->valve, found.name, word)));
-    word[0] = '\0';
   }
   return status;
 }

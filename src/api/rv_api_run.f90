@@ -9,6 +9,7 @@ module rv_api_run
       & n_traces, column_type, fact_columns, measure_columns, trace_columns
    use rv_c_text, only : give_text, take_text
    use rv_deck, only : deck_type
+   use rv_floats, only : float_guard
    use rv_handles, only : valve_type
    use rv_keys, only : key_run_trace_dt_ms, key_run_traces
    use rv_text, only : to_text
@@ -27,7 +28,9 @@ contains
       type(valve_type), pointer :: valve
       type(error_type), allocatable :: error
       character(len=:), allocatable :: warnings
+      type(float_guard) :: guard
 
+      call guard%put_aside()
       call begin_call(self, valve, code)
       if (.not. associated(valve)) return
       valve%has_run = .false.

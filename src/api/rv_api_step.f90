@@ -9,6 +9,7 @@ module rv_api_step
    use rv_block, only : n_traces
    use rv_case_facts, only : amplitudes_of, case_facts
    use rv_film_case, only : planform_cache
+   use rv_floats, only : float_guard
    use rv_handles, only : valve_type
    use rv_keys, only : n_keys, kind_trace, key_pressure_kind, key_run_model
    use rv_pressure, only : pressure_history
@@ -35,7 +36,9 @@ contains
       type(valve_type), pointer :: valve
       type(error_type), allocatable :: error
       character(len=:), allocatable :: warnings
+      type(float_guard) :: guard
 
+      call guard%put_aside()
       call begin_call(self, valve, code)
       if (.not. associated(valve)) return
       valve%is_stepping = .false.
@@ -88,7 +91,9 @@ contains
       real(c_double), value :: t_end, p_in0, p_in1, p_out0, p_out1
       type(valve_type), pointer :: valve
       integer :: status
+      type(float_guard) :: guard
 
+      call guard%put_aside()
       call begin_stepping(self, valve, code)
       if (code /= rv_ok) return
       if (valve%stepper%has_failed) then
@@ -207,7 +212,9 @@ contains
       type(valve_type), pointer :: valve
       type(error_type), allocatable :: error
       real(wp), allocatable :: number(:)
+      type(float_guard) :: guard
 
+      call guard%put_aside()
       call begin_state(self, bytes, size, valve, code)
       if (code /= rv_ok) return
       allocate(number(state_count(valve%stepper)))

@@ -9,6 +9,7 @@ module rv_api_sweep
    use rv_c_text, only : take_text
    use rv_deck, only : deck_type
    use rv_film_case, only : planform_cache
+   use rv_floats, only : float_guard
    use rv_handles, only : valve_type
    use rv_keys, only : key_run_block_size, key_run_traces
    use rv_posix, only : process_number
@@ -36,7 +37,9 @@ contains
       type(deck_type) :: deck
       real(c_double), pointer :: number(:, :), measure(:, :)
       integer(c_int), pointer :: ends(:)
+      type(float_guard) :: guard
 
+      call guard%put_aside()
       call begin_call(self, valve, code)
       if (.not. associated(valve)) return
       call take_names(valve, n_keys, keys, names, code)
@@ -140,7 +143,9 @@ contains
       type(column_type) :: column(n_measures)
       integer(i8) :: first, last
       integer :: i
+      type(float_guard) :: guard
 
+      call guard%put_aside()
       call block_bounds(deck, block, first, last)
       call run_block(deck, first, last, result, cache)
       column = measure_columns()

@@ -5,6 +5,7 @@ module rv_api_valve
    use rv_text, only : to_text
    use rv_api_call, only : begin_call, refuse, settle, put_number, put_nan, rv_ok, no_valve, no_pointer, no_text
    use rv_c_text, only : give_text, take_text
+   use rv_floats, only : float_guard
    use rv_handles, only : valve_type, open_handle, close_handle, valve_of
    use rv_setup, only : new_setup, read_setup
    implicit none
@@ -19,7 +20,9 @@ contains
       type(valve_type), pointer :: valve
       type(c_ptr), pointer :: handle
       integer :: stat
+      type(float_guard) :: guard
 
+      call guard%put_aside()
       code = rv_bad_input
       if (.not. c_associated(out)) return
       call c_f_pointer(out, handle)
@@ -43,7 +46,9 @@ contains
       type(error_type), allocatable :: error
       character(len=:), allocatable :: file
       logical :: taken
+      type(float_guard) :: guard
 
+      call guard%put_aside()
       code = rv_bad_input
       call take_text(path, file, taken)
       if (.not. c_associated(out)) then
@@ -105,7 +110,9 @@ contains
       type(c_ptr), value :: self, key
       real(c_double), value :: value
       type(valve_type), pointer :: valve
+      type(float_guard) :: guard
 
+      call guard%put_aside()
       call begin_call(self, valve, code)
       if (associated(valve)) call set_key(valve, key, to_text(value), .true., code)
    end function rv_valve_set_real
@@ -115,7 +122,9 @@ contains
       type(valve_type), pointer :: valve
       character(len=:), allocatable :: word
       logical :: taken
+      type(float_guard) :: guard
 
+      call guard%put_aside()
       call begin_call(self, valve, code)
       if (.not. associated(valve)) return
       call take_text(value, word, taken)
@@ -157,7 +166,9 @@ contains
       type(error_type), allocatable :: error
       character(len=:), allocatable :: name
       real(c_double) :: number
+      type(float_guard) :: guard
 
+      call guard%put_aside()
       call put_nan(value)
       call begin_get(self, key, value, valve, name, code)
       if (code /= rv_ok) return
@@ -174,7 +185,9 @@ contains
       type(valve_type), pointer :: valve
       type(error_type), allocatable :: error
       character(len=:), allocatable :: name, word
+      type(float_guard) :: guard
 
+      call guard%put_aside()
       call begin_get(self, key, buffer, valve, name, code)
       if (code /= rv_ok) return
       !$omp critical (rv_api_text)
@@ -191,7 +204,9 @@ contains
       character(len=:), allocatable :: name
       integer(c_int), pointer :: place
       logical :: set
+      type(float_guard) :: guard
 
+      call guard%put_aside()
       call begin_get(self, key, is_set, valve, name, code)
       if (code /= rv_ok) return
       !$omp critical (rv_api_text)

@@ -1,4 +1,6 @@
-/* Where memory ends, what threads a child has that was forked from a program with threads, and valves in eight threads. */
+/* Where memory ends, what threads a child has that was forked from a program with threads, valves in eight threads, and a
+ * caller who stops at NaN. */
+#include <fenv.h>
 #include <pthread.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -126,9 +128,40 @@ static void test_eight_threads(void) {
   for (int i = 0; i < 8; i++) CHECK(pthread_join(thread[i], NULL) == 0 && memcmp(alone, together[i], sizeof alone) == 0);
 }
 
+/* The caller's traps neither hit the library nor change, and the flags are those that the caller raised. */
+static void test_floats(void) {
+  static double values[cases], measures[9 * cases];
+  static int status[cases];
+  const int traps = FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW;
+  double number[4];
+  rv_valve *valve;
+  CHECK(sweep(2, measures) == RV_OK); /* OpenMP's threads may be older than the traps, or younger */
+  feclearexcept(FE_ALL_EXCEPT);
+  feraiseexcept(FE_UNDERFLOW);
+  feenableexcept(traps);
+  all_calls(number);
+  CHECK(rv_valve_new(&valve) == RV_OK);
+  FAILS(valve, rv_valve_set_real(valve, "film.gap_mm", NAN), RV_BAD_INPUT, "NaN");
+  FAILS(valve, rv_valve_set_text(valve, "film.gap_mm", "1e999"), RV_BAD_INPUT, "too large");
+  GOOD(valve, rv_valve_set_real(valve, "run.t_end_ms", 1.0));
+  for (int i = 0; i < cases; i++) values[i] = 1e-5 * i;
+  GOOD(valve, rv_sweep(valve, 1, gap, cases, values, measures, status, 2));
+  values[7] = INFINITY;
+  FAILS(valve, rv_sweep(valve, 1, gap, cases, values, measures, status, 2), RV_BAD_INPUT, "infinity");
+  GOOD(valve, rv_valve_begin(valve, -1e308));
+  FAILS(valve, rv_valve_step(valve, 1e308, 0.0, 0.0, 0.0, 0.0), RV_BAD_INPUT, "finite");
+  GOOD(valve, rv_valve_begin(valve, 0.0));
+  CHECK(rv_valve_step(valve, 1.0, 0.0, 1e300, 0.0, 0.0) >= RV_NOT_CONVERGED);
+  CHECK(rv_valve_free(&valve) == RV_OK);
+  CHECK(fegetexcept() == traps && fetestexcept(traps | FE_UNDERFLOW) == FE_UNDERFLOW);
+  fedisableexcept(traps);
+  feclearexcept(FE_ALL_EXCEPT);
+}
+
 int main(void) {
   test_fork();
   test_eight_threads();
+  test_floats();
   test_no_memory();
   return api_finish();
 }

@@ -1,5 +1,6 @@
 C     THE FORTRAN 77 INTERFACE: BITS OF THE C INTERFACE, TEXTS, AND EVERY
-C     WRONG USE.
+C     WRONG USE. THE PROGRAM IS BUILT TO STOP AT A NAN OR AN OVERFLOW OF
+C     ITS OWN.
       PROGRAM TF77
       INTEGER NPASS, NFAIL
       COMMON /TALLY/ NPASS, NFAIL
@@ -10,6 +11,7 @@ C     WRONG USE.
       CALL TTRACE
       CALL TCASES
       CALL TSTEP
+      CALL TMODEL
       CALL TWRONG
       CALL TDECK
       WRITE (*, *) NPASS, ' passed,', NFAIL, ' failed'
@@ -260,7 +262,6 @@ C     STEPPING, AND THE STATE IN A DOUBLE PRECISION ARRAY.
       CALL CHECK('NO LEAKAGE', IERR .EQ. 0 .AND. X .NE. X)
       CALL RV_STEP(IV, 1D-3, 0D0, 0D0, 0D0, 0D0, IERR)
       CALL FAILS('time must go on', IV, IERR, 1)
-      X = SQRT(-ABS(OUT(1)))
       CALL RV_STEP(IV, 3D-3, X, 0D0, 0D0, 0D0, IERR)
       CALL FAILS('finite', IV, IERR, 1)
       CALL RV_SAVE(IV, W, N - 1, IERR)
@@ -277,6 +278,36 @@ C     STEPPING, AND THE STATE IN A DOUBLE PRECISION ARRAY.
       CALL RV_STEP(IV, 2D0, 0D0, 0D0, 0D0, 0D0, IERR)
       CALL FAILS('the last step failed', IV, IERR, 1)
       CALL RV_FREE(IV, IERR)
+      END
+
+C     EACH MODEL AND METHOD MAKES OVERFLOWS AND NANS OF ITS OWN.
+      SUBROUTINE TMODEL
+      INTEGER IV, IERR, I, J, K
+      DOUBLE PRECISION T
+      CHARACTER*11 MODEL(4)
+      CHARACTER*8 METHOD(2)
+      DATA MODEL /'traditional', 'squeeze', 'film', 'film_table'/
+      DATA METHOD /'implicit', 'explicit'/
+      DO 30 I = 1, 4
+         DO 20 J = 1, 2
+            CALL RV_NEW(IV, IERR)
+            CALL RV_SETC(IV, 'run.model', MODEL(I), IERR)
+            CALL RV_SETC(IV, 'solver.method', METHOD(J), IERR)
+            CALL RV_SET(IV, 'film.modes', 1D0, IERR)
+            CALL RV_SET(IV, 'run.t_end_ms', 3D0, IERR)
+            CALL RV_RUN(IV, IERR)
+            CALL GOOD(MODEL(I), IV, IERR)
+            CALL RV_BEGIN(IV, 0D0, IERR)
+            DO 10 K = 1, 3
+               T = 1D-4*K
+               CALL RV_STEP(IV, T, 0D0, 1D4, 0D0, 0D0, IERR)
+               CALL GOOD(METHOD(J), IV, IERR)
+   10       CONTINUE
+            CALL RV_STEP(IV, 1D0, 0D0, 1D300, 0D0, 0D0, IERR)
+            CALL CHECK('NO SOLVER FOLLOWS', IERR .GE. 3)
+            CALL RV_FREE(IV, IERR)
+   20    CONTINUE
+   30 CONTINUE
       END
 
 C     NUMBERS THAT ARE NO VALVE, IN EVERY ROUTINE; AND WRONG SETTINGS.
@@ -338,7 +369,8 @@ C     NUMBERS THAT ARE NO VALVE, IN EVERY ROUTINE; AND WRONG SETTINGS.
    10 CONTINUE
       CALL RV_FREE(JV, IERR)
       CALL CHECK('FREE OF A CLOSED ONE', IERR .EQ. 1 .AND. JV .EQ. 0)
-      X = SQRT(-DBLE(IV))
+      CALL RV_GET(IV, 'pressure.event_ms', X, IERR)
+      CALL CHECK('NOT A NUMBER', X .NE. X)
       CALL RV_SET(IV, 'film.gap_mm', X, IERR)
       CALL FAILS('NaN and infinity', IV, IERR, 1)
       CALL RV_SET(IV, 'film.gap_mm', -0.05D0, IERR)
