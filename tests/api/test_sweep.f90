@@ -40,7 +40,7 @@ program test_sweep
    call test_codes()
    call test_same_bits(.false., 3)
    call suite%equal("traces", int(rv_valve_set_text(valve, c_loc(traces_key), c_loc(true_word))), 0)
-   call suite%equal("samples", int(rv_valve_set_real(valve, c_loc(step_key), 0.005_c_double)), 0)
+   call suite%equal("samples", int(rv_valve_set_real(valve, c_loc(step_key), 0.02_c_double)), 0)
    call test_same_bits(.true., 6)
    call test_refused()
    call test_failures()
