@@ -498,6 +498,7 @@ def test_packing(tmp_path: Path) -> None:
     reedvalve("fmu", deck, "-o", tmp_path / "again.fmu")
     reedvalve("fmu", deck, "-o", tmp_path / "my.fmu", "--force")
     assert (tmp_path / "my.fmu").read_bytes() == (tmp_path / "again.fmu").read_bytes()
+    assert {entry.date_time for entry in zipfile.ZipFile(tmp_path / "my.fmu").infolist()} == {(1980, 1, 1, 0, 0, 0)}
     assert validate_fmu(str(tmp_path / "my.fmu")) == []
     deck.write_text("&run model = 'squeeze', 'film' /\n&sweep key = 'film.gap_mm', values = 0.1, 0.2 /")
     assert "an FMU is one case, these are 4" in reedvalve("fmu", deck, status=2)

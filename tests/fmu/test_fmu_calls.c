@@ -19,13 +19,17 @@ static _Thread_local int messages;
 static _Thread_local unsigned seed;
 static char token[RV_FMU_TOKEN];
 
-static void *look_up(const char *name) {
+typedef void any_function(void);
+
+static any_function *look_up(const char *name) {
   void *found = dlsym(library, name);
+  any_function *function;
   if (found == NULL) {
     printf("%s is missing\n", name);
     exit(1);
   }
-  return found;
+  memcpy(&function, &found, sizeof function); /* POSIX lets a cast do it, C does not */
+  return function;
 }
 
 static void hear(fmi3InstanceEnvironment environment, fmi3Status status, fmi3String category, fmi3String message) {
