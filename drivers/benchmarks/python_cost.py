@@ -61,15 +61,12 @@ def main() -> int:
         bench = Bench(words.build, Path(folder), Path(folder))
         deck = bench.deck(1e-6, PRESSURES, GAPS)
         seconds = [one_round(bench, deck, words.threads) for _ in range(words.rounds)]
-    kernel = min(seconds)[0]
-    print(
-        f"{PRESSURES * GAPS} cases, {words.threads} thread(s), {words.rounds} rounds   fastest   median   to the first"
-    )
-    for name, column in zip(
-        ("computed, no files", "reedvalve run", "Valve.sweep"), zip(*seconds, strict=True), strict=True
-    ):
-        share = 100.0 * (min(column) / kernel - 1.0)
-        print(f"{name:39}{min(column):8.3f} {median(column):8.3f} s {share:+10.1f} %")
+    columns = list(zip(*seconds, strict=True))
+    head = f"{PRESSURES * GAPS} cases, threads: {words.threads}, rounds: {words.rounds}"
+    print(f"{head:39} fastest   median     to the first")
+    for name, column in zip(("computed, no files", "reedvalve run", "Valve.sweep"), columns, strict=True):
+        share = 100.0 * (min(column) / min(columns[0]) - 1.0)
+        print(f"{name:39}{min(column):8.3f} {median(column):8.3f} s {share:+13.1f} %")
     return 0
 
 

@@ -123,3 +123,17 @@ def test_lane_accuracy(tmp_path: Path) -> None:
         rows = list(csv.DictReader(file))
     assert {row["lanes"] for row in rows} == {"1", "8", "64", "256"}
     assert all(float(row["closing"]) < 1e-2 for row in rows)
+
+
+def test_python_cost(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    """Kernel, program and sweep from Python solve the same cases: on few of them."""
+    if not (BUILD / "drivers" / "benchmarks" / "block_speed").is_file():
+        pytest.skip(f"reedvalve is not built in {BUILD}")
+    import python_cost
+
+    monkeypatch.setattr(python_cost, "PRESSURES", 8)
+    monkeypatch.setattr(sys, "argv", ["python_cost.py", "--build", str(BUILD), "--rounds", "1"])
+    assert python_cost.main() == 0
+    rows = capsys.readouterr().out.splitlines()
+    assert rows[0].startswith("3200 cases, threads: 1, rounds: 1 ")
+    assert [row[:18].strip() for row in rows[1:]] == ["computed, no files", "reedvalve run", "Valve.sweep"]

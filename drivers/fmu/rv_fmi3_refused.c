@@ -6,7 +6,8 @@
 
 static fmi3Status refuse(fmi3Instance pointer, const char *function) {
   instance *self = rv_fmu_enter(pointer, function, anywhere);
-  return self == NULL ? fmi3Error : rv_fmu_fail(self, function, "this FMU does co-simulation, without events; it has no such thing");
+  if (self == NULL) return fmi3Error;
+  return rv_fmu_fail(self, function, "this FMU does co-simulation, without events; it has no such thing");
 }
 
 /* Nothing is asked for: that is no error. */

@@ -125,7 +125,8 @@ static bool is_open(instance *self, const char *function, fmi3ValueReference ref
 static fmi3Status set_real(instance *self, const char *function, fmi3ValueReference reference, double value) {
   parameter found;
   if (reference - first_input < n_inputs) {
-    if (!isfinite(value)) return rv_fmu_fail(self, function, "an input must be a finite number: valueReference %u", (unsigned)reference);
+    if (!isfinite(value))
+      return rv_fmu_fail(self, function, "an input must be a finite number: valueReference %u", (unsigned)reference);
     self->input[reference - first_input] = value;
     self->is_ready = self->mode == stepping;
     return fmi3OK;

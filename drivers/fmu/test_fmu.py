@@ -126,6 +126,34 @@ def test_description(packed: dict[str, Path]) -> None:
     assert not {"reed.k_a", "film.k_s", "run.t_end_ms"} & set(by_name)
 
 
+def test_units(packed: dict[str, Path]) -> None:
+    """Each unit is made of others as its name says, and every one is there that a variable has."""
+    description = fmpy.read_model_description(str(packed["film"]))
+    base = {unit.name: unit.baseUnit for unit in description.unitDefinitions}
+    power = {name: np.array([int(getattr(unit, b) or 0) for b in ("kg", "m", "s")]) for name, unit in base.items()}
+    factor = {name: float(unit.factor or 1) for name, unit in base.items()}
+    expected = {
+        "m": [0, 1, 0],
+        "s": [0, 0, 1],
+        "N": [1, 1, -2],
+        "mm": power["m"],
+        "ms": power["s"],
+        "mm2": 2 * power["m"],
+        "m/s": power["m"] - power["s"],
+        "m3/s": 3 * power["m"] - power["s"],
+        "Pa": power["N"] - 2 * power["m"],
+        "kPa": power["Pa"],
+        "GPa": power["Pa"],
+        "Pa s": power["Pa"] + power["s"],
+        "Pa/s": power["Pa"] - power["s"],
+        "kg/m3": [1, -3, 0],
+    }
+    assert {name: list(value) for name, value in power.items()} == {name: list(v) for name, v in expected.items()}
+    prefixed = {"mm": 1e-3, "ms": 1e-3, "mm2": 1e-6, "kPa": 1e3, "GPa": 1e9}
+    assert factor == {name: prefixed.get(name, 1.0) for name in expected}
+    assert {v.unit for v in description.modelVariables} - {None} <= set(expected)
+
+
 @pytest.mark.parametrize("model", MODELS)
 def test_same_as_the_program(packed: dict[str, Path], model: str) -> None:
     """Pressures are straight between the samples of the program's trace, so stepping agrees with it to ten of its own
@@ -470,6 +498,7 @@ def test_packing(tmp_path: Path) -> None:
     reedvalve("fmu", deck, "-o", tmp_path / "again.fmu")
     reedvalve("fmu", deck, "-o", tmp_path / "my.fmu", "--force")
     assert (tmp_path / "my.fmu").read_bytes() == (tmp_path / "again.fmu").read_bytes()
+    assert {entry.date_time for entry in zipfile.ZipFile(tmp_path / "my.fmu").infolist()} == {(1980, 1, 1, 0, 0, 0)}
     assert validate_fmu(str(tmp_path / "my.fmu")) == []
     deck.write_text("&run model = 'squeeze', 'film' /\n&sweep key = 'film.gap_mm', values = 0.1, 0.2 /")
     assert "an FMU is one case, these are 4" in reedvalve("fmu", deck, status=2)

@@ -47,6 +47,8 @@ def draw(result: Result) -> Album:
                 _draw_fields(variant, album)
             elif study == EXPERIMENT:
                 album.pictures.append(experiment_picture(variant, album.problems))
+    if not (album.pictures or album.problems):
+        album.problems.append("there is no picture of a gap study without a film")
     return album
 
 
@@ -64,7 +66,9 @@ def _draw_fields(variant: Variant, album: Album) -> None:
         album.problems.append(f"{len(cases)} cases hold pressure fields; only the first {MOST_FIELDS} are drawn")
     album.pictures += [field_picture(result, case) for case in cases[:MOST_FIELDS]]
     if not cases:
-        album.problems.append("no pressure field to draw: no film model succeeded")
+        album.problems.append(
+            "no pressure field to draw: its cases failed, or film.fields_ms names no time of their runs"
+        )
 
 
 def _draw_sweep(variant: Variant, album: Album) -> None:

@@ -124,6 +124,12 @@ def test_any_gaps_at_any_pressure_are_drawn(tmp_path):
     assert len(album.pictures[0].figure.axes[0].lines) == 3  # two curves and the zero line
 
 
+def test_no_picture_is_no_silence(gaps):
+    result = read_result(gaps)
+    album = draw(replace(result, model=np.full(result.count, "traditional", dtype=object)))
+    assert album.pictures == [] and album.problems == ["there is no picture of a gap study without a film"]
+
+
 def test_too_many_gaps_for_one_picture(sweep):
     """Of 16 those of the paper, or six from the narrowest to the widest."""
     result = read_result(sweep)

@@ -36,7 +36,8 @@ static void note_signal(int number)
 
 /* SIGINT, SIGTERM, SIGUSR1 and SIGHUP are noted once; a second one has its usual effect, so nobody is locked in.
  * Schedulers announce the end of a job's time with SIGUSR1, and mpirun passes that one on where it makes an end of the
- * others. SIGHUP comes when a connection is lost; under nohup it is ignored, and stays so.
+ * others. SIGHUP comes when a connection is lost; under nohup it is ignored, and stays so. A file that may grow no more
+ * (ulimit -f) is an error of the write, as a full disk is, and no reason to die.
  * `notice` is what the program wants to be told at once on standard error; it may be empty. */
 int rv_posix_catch_signals(const char *notice)
 {
@@ -55,7 +56,9 @@ int rv_posix_catch_signals(const char *notice)
       }
       if (sigaction(stopping[i], &action, NULL) != 0) return errno;
    }
-   return 0;
+   action.sa_handler = SIG_IGN;
+   action.sa_flags = 0;
+   return sigaction(SIGXFSZ, &action, NULL) == 0 ? 0 : errno;
 }
 
 int rv_posix_signal_seen(void)

@@ -224,7 +224,8 @@ contains
       if (.not. allocated(error)) call path_kind(parent, parent_kind, error)
       if (allocated(error) .or. kind == path_folder) return
       if (kind /= path_none) then
-         call fail(error, rv_io, "'"//self%path//"' is a file, and the results need a folder")
+         call fail(error, rv_io, "'"//self%path//"' is a file, and the results need a folder" &
+            & //repeat(": choose one with -o", merge(1, 0, may_make)))
       else if (.not. may_make) then
          call fail(error, rv_io, "there is no folder '"//self%path//"'")
       else if (parent_kind == path_none) then

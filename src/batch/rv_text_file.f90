@@ -3,6 +3,7 @@ module rv_text_file
    use, intrinsic :: iso_fortran_env, only : int64
    use rv_error, only : error_type, fail, rv_bad_input, rv_io
    use rv_faults, only : fault_list
+   use rv_posix, only : path_kind, path_other
    use rv_text, only : to_text
    implicit none
    private
@@ -24,14 +25,19 @@ contains
       integer(int64) :: bytes
       integer :: unit, stat
       logical :: exists, is_folder
+      integer :: kind
 
       text = ""
       inquire(file=path, exist=exists, size=bytes)
       inquire(file=path//"/.", exist=is_folder)
+      call path_kind(path, kind, error)
+      if (allocated(error)) return
       if (len_trim(path) == 0 .or. .not. exists) then
          call fail(error, rv_io, "'"//path//"': there is no such file")
       else if (is_folder) then
          call fail(error, rv_io, "'"//path//"' is a folder; name a file in it")
+      else if (kind == path_other) then
+         call fail(error, rv_io, "'"//path//"' is a pipe or a device; a file is needed here")
       else if (bytes > most) then
          call fail(error, rv_bad_input, "'"//path//"' has "//to_text(bytes)//" bytes, more than the " &
             & //to_text(most)//" such a file may have")

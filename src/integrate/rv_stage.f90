@@ -20,7 +20,7 @@ module rv_stage
    integer, parameter :: max_iterations = 40
    integer, parameter :: max_halvings = 8   !! of a lane's correction, in one iteration
    real(wp), parameter :: accuracy = 0.1_wp !! last correction of a system over tolerance; Newton squares it: error below rtol
-   real(wp), parameter :: remainder = 0.005_wp !! error left in a scalar equation over tolerance
+   real(wp), parameter :: remainder = 0.02_wp !! error left in a scalar equation over tolerance
 
    !> The accelerations of the stages solved last: they lead to those of the next.
    type :: stage_guess
@@ -155,10 +155,10 @@ contains
       end do
       dq = known_q + gamma*v(:n)
       dv = v(:n) - v_n
-      a_now = (v(:n) - base_v(:n))/gamma
+      a_now = (1.0_wp/gamma)*(v(:n) - base_v(:n))
       if (.not. open) return
       do failed = first, last
-         if (.not. left(failed - first + 1) <= remainder) return
+         if (.not. left(failed - first + 1) <= 0.0_wp) return
       end do
    end subroutine solve_scalar
 
@@ -169,11 +169,12 @@ contains
       real(wp), intent(in) :: gamma, drawn(2)
       real(wp), dimension(n), intent(in) :: q_n, v_n, known_q, known_v, gap, a_old, a_older
       real(wp), dimension(n), intent(out) :: base_q, base_v, v
-      real(wp) :: film, least, kept, new, old, older
+      real(wp) :: film, least, kept, new, old, older, per_gamma
       integer :: i
 
       old = gamma*drawn(1)
       older = gamma*drawn(2)
+      per_gamma = 1.0_wp/gamma
       do i = 1, n
          base_q(i) = q_n(i) + known_q(i)
          base_v(i) = v_n(i) + known_v(i)
@@ -181,13 +182,13 @@ contains
          film = base_q(i) + gap(i)
          least = 0.1_wp*film
          least = merge(least, 1.0e-3_wp*gap(i), least > 1.0e-3_wp*gap(i))
-         kept = (least - film)/gamma
+         kept = per_gamma*(least - film)
          v(i) = merge(new, kept, new > kept)
       end do
    end subroutine predict
 
-   !> Add Newton's correction to some lanes; `left` is what remains of their error over tolerance, `open` tells that some
-   !> have more than they may.
+   !> Add Newton's correction to some lanes; `left` is positive where more remains of their error than may, `open` tells
+   !> that some have more.
    !>
    !> With the film's force in h^-3, g'' /(2 g') <= 3 gamma/h for a reed that closes: the error left after a correction dv
    !> is at most 3 gamma dv^2/h. Where the film opens fast the bound may not hold and dv itself is taken;
@@ -199,21 +200,22 @@ contains
       real(wp), intent(inout) :: v(n)
       real(wp), intent(out) :: left(n)
       logical, intent(out) :: open
-      real(wp) :: bend, cut, v_new, turned
+      real(wp) :: bend, cut, per_gamma, v_new, turned
       integer(i8) :: some
       integer :: i
 
       some = 0_i8
+      per_gamma = 1.0_wp/gamma
       do i = 1, n
          cut = -0.75_wp*film(i)
          bend = 3.0_wp*gamma*abs(dv(i))
-         bend = merge(bend, film(i), max(4.0_wp*bend, 6.0_wp*gamma*v(i)) < film(i))
-         left(i) = abs(dv(i))*weight(i)*(bend/film(i))
-         v_new = v(i) + merge(cut/gamma, dv(i), gamma*dv(i) < cut)   ! max() may drop a NaN
-         turned = merge(max(v(i), v_new), 0.0_wp, min(v(i), v_new) <= 0.0_wp)
-         left(i) = merge(huge(left), left(i), turned > 0.0_wp)
+         bend = merge(film(i), bend, max(4.0_wp*bend, 6.0_wp*gamma*v(i)) >= film(i))
+         left(i) = abs(dv(i))*weight(i)*bend - remainder*film(i)   ! over the film, which is positive
+         v_new = v(i) + merge(per_gamma*cut, dv(i), gamma*dv(i) < cut)   ! max() may drop a NaN
+         turned = merge(1.0_wp, 0.0_wp, v(i) > 0.0_wp) - merge(1.0_wp, 0.0_wp, v_new > 0.0_wp)
+         left(i) = left(i) + turned*turned*film(i)
          v(i) = v_new
-         some = ior(some, merge(0_i8, 1_i8, left(i) <= remainder))
+         some = ior(some, merge(0_i8, 1_i8, left(i) <= 0.0_wp))
       end do
       open = some > 0_i8
    end subroutine correct

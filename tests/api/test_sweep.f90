@@ -40,8 +40,8 @@ program test_sweep
    call test_codes()
    call test_same_bits(.false., 3)
    call suite%equal("traces", int(rv_valve_set_text(valve, c_loc(traces_key), c_loc(true_word))), 0)
-   call suite%equal("samples", int(rv_valve_set_real(valve, c_loc(step_key), 0.005_c_double)), 0)
-   call test_same_bits(.true., 22)
+   call suite%equal("samples", int(rv_valve_set_real(valve, c_loc(step_key), 0.02_c_double)), 0)
+   call test_same_bits(.true., 6)
    call test_refused()
    call test_failures()
    call suite%equal("free", int(rv_valve_free(c_loc(valve))), 0)
@@ -86,7 +86,7 @@ contains
       close(unit)
       open(newunit=unit, file="api_sweep.nml", status="replace", action="write")
       write(unit, '(a)') "&design file = 'api_sweep.csv' /"
-      if (traces) write(unit, '(a)') "&run traces = .true., trace_dt_ms = 0.005 /"
+      if (traces) write(unit, '(a)') "&run traces = .true., trace_dt_ms = 0.02 /"
       close(unit)
       call read_deck("api_sweep.nml", deck, faults, error)
       call suite%no_error("deck", error)

@@ -47,6 +47,8 @@ rm bad.nml; truncate -s 1G bad.nml;                                   broken 2 '
 rm bad.nml;                                                           broken 3 "bad.nml.*no such file"
 mkdir bad.nml;                                                        broken 3 "bad.nml.*folder"
 rmdir bad.nml
+mkfifo bad.nml;                                                       broken 3 "'bad.nml' is a pipe or a device"
+rm bad.nml
 deck "&run /"
 expect 3 "'bad': there is no such file; did you mean 'bad.nml'[?]" run bad
 mkdir bad

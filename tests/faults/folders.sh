@@ -88,7 +88,7 @@ expect 3 "cannot make the folder 'no/such/place': there is no folder 'no/such'" 
 expect 3 "'deck.nml' is a file, and the results need a folder" run deck.nml -o deck.nml
 expect 3 "there is no folder 'nowhere'" merge nowhere
 cp deck.nml plain
-expect 3 "'plain' is a file" run plain
+expect 3 "'plain' is a file, and the results need a folder: choose one with -o" run plain
 mkdir -p mine2
 expect 0 'none failed' run deck.nml -o mine2///
 holds "slashes at the end do no harm" test -e mine2/results.nc

@@ -38,4 +38,10 @@ cat >huge.nml <<'END'
 END
 expect 3 'no room for this run: about [0-9]+ TB of parts and [0-9]+ TB of results' run huge.nml
 fails "nothing was computed" test -e huge/parts
+
+# files that may not grow (ulimit -f, here of 2 KiB) are like a full disk: a sentence, not the system's signal
+printf '#!/bin/sh\nulimit -f 4\nexec "%s" "$@"\n' "$program" >limited
+chmod 755 limited
+program=./limited
+expect 3 'no room for this run|File too large' run plain.nml -o limited_run
 finish

@@ -77,7 +77,7 @@ if plt is not None:
     axes[0].set(title="One case", xlabel="time [ms]", ylabel="tip displacement [mm]")
     for pressure, times in zip(pressures, sweep.grid("closing_ms")):
         axes[1].semilogy(gaps, times, "o-", label=f"{pressure:.0f} kPa")
-    axes[1].set(title="Twelve cases", xlabel="gap [mm]", ylabel="closing time [ms]")
+    axes[1].set(title="Twelve cases", xticks=gaps, xlabel="gap [mm]", ylabel="closing time [ms]")
     axes[1].legend()
     axes[2].plot(time, inlet, label="chamber [kPa]")
     axes[2].plot(time, 100 * tip, label="tip [0.01 mm]")

@@ -30,11 +30,12 @@ class Settings(Mapping[str, Value]):
         self._handle = ctypes.c_void_p()
         self._finalizer = weakref.finalize(self, LIB.rv_valve_free, ctypes.byref(self._handle))
         self._lock = threading.RLock()
-        self._folder = os.path.abspath(os.path.dirname(os.fspath(deck)) if deck is not None else ".")
+        path = os.fsdecode(deck) if deck is not None else ""
+        self._folder = os.path.abspath(os.path.dirname(path))
         if deck is None:
             code, message = LIB.rv_valve_new(ctypes.byref(self._handle)), ""
         else:
-            code, message = take_text(LIB.rv_valve_new_deck, encoded(os.fspath(deck)), ctypes.byref(self._handle))
+            code, message = take_text(LIB.rv_valve_new_deck, encoded(path), ctypes.byref(self._handle))
         if code != 0:
             raise error_of(code, message)
         warn(message)

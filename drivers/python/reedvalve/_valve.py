@@ -27,9 +27,9 @@ class Valve(Stepping):
     Results are not kept in the valve; a new setting ends stepping.
 
     A valve may be used by several threads: their calls wait for each other. Different valves compute at the same time,
-    for the interpreter's lock is not held meanwhile. A process that has swept must not be forked: let multiprocessing
-    spawn. :func:`copy.copy` and :mod:`pickle` make another valve with the same settings and state. Memory is given back
-    with :meth:`close`, at the end of a ``with`` block, or with the object.
+    for the interpreter's lock is not held meanwhile. :func:`copy.copy` and :mod:`pickle` make another valve with the
+    same settings and state. Memory is given back with :meth:`close`, at the end of a ``with`` block, or with the
+    object.
 
     Args:
         deck: path of a deck of one case; None: the defaults.
