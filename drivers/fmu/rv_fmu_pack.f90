@@ -7,7 +7,7 @@ module rv_fmu_pack
    use rv_fmu_description, only : describe, library_name, trace_name, valve_deck
    use rv_keys, only : kind_trace, key_pressure_file, key_pressure_kind, n_keys
    use rv_kinds, only : i8, wp
-   use rv_posix, only : c_text
+   use rv_posix, only : c_text, path_file, path_kind, path_none
    use rv_text, only : text_type, to_text
    use rv_text_builder, only : append_text
    implicit none
@@ -70,13 +70,18 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(archive_type) :: archive
       character(len=:), allocatable :: bytes
+      integer :: kind
       logical :: taken
 
       if (deck%case_count() /= 1_i8) then
          call fail(error, rv_bad_input, deck%path//": an FMU is one case, these are "//to_text(deck%case_count()))
          return
       end if
-      call collect(deck, archive, error)
+      call path_kind(path, kind, error)
+      if (.not. allocated(error) .and. kind /= path_none .and. kind /= path_file) then
+         call fail(error, rv_bad_input, "'"//path//"' is not a file")
+      end if
+      if (.not. allocated(error)) call collect(deck, archive, error)
       if (.not. allocated(error)) call zip(archive, bytes, error)
       if (allocated(error)) return
       taken = .false.
@@ -171,7 +176,7 @@ contains
       if (c_folder(c_loc(buffer), len(buffer, c_size_t)) == 0) then
          folder = buffer(:index(buffer, c_null_char) - 1)
       else
-         call fail(error, rv_io, "cannot find the library that goes into an FMU: it belongs to the folder '" &
+         call fail(error, rv_io, "cannot find the library that goes into an FMU: there is no folder '" &
             & //buffer(:index(buffer, c_null_char) - 1)//"'")
       end if
    end subroutine find_folder

@@ -495,6 +495,7 @@ def test_packing(tmp_path: Path) -> None:
     said = reedvalve("fmu", deck, "-o", tmp_path / "my.fmu")
     assert said.endswith("my.fmu: 4 inputs, 3 outputs, 21 parameters.\n")
     assert "already" in reedvalve("fmu", deck, "-o", tmp_path / "my.fmu", status=2)
+    assert "is not a file" in reedvalve("fmu", deck, "-o", tmp_path, "--force", status=2)
     reedvalve("fmu", deck, "-o", tmp_path / "again.fmu")
     reedvalve("fmu", deck, "-o", tmp_path / "my.fmu", "--force")
     assert (tmp_path / "my.fmu").read_bytes() == (tmp_path / "again.fmu").read_bytes()
