@@ -426,6 +426,7 @@ contains
 
       allocate(some(2))
       call one%open()
+      call one%open()
       call several(2)%open()
       call some(1)%open()
       call ok(one%is_open() .and. several(2)%is_open() .and. some(1)%is_open(), "open")
