@@ -22,6 +22,7 @@ def blocks(page):
 
 BLOCKS = blocks("docs/guide.md")
 README = [text for _, text in blocks("README.md")]
+ERROR = 3e-6  # three tolerances of the integration, of which times are good to about one
 PROGRAM = os.environ.get("REEDVALVE")
 pytestmark = pytest.mark.skipif(not PROGRAM, reason="REEDVALVE, the path of the reedvalve program, is not set")
 
@@ -45,12 +46,22 @@ def told(text, folder):
     return done.stdout
 
 
+def alike(ours, printed):
+    """The same words, and numbers within some tolerances of the integration: another processor takes other steps."""
+    assert len(ours.split()) == len(printed.split())
+    for word, other in zip(ours.split(), printed.split(), strict=True):
+        try:
+            assert float(word) == pytest.approx(float(other), rel=ERROR)
+        except ValueError:
+            assert word == other
+
+
 def test_first_deck_and_its_table(tmp_path):
     at = place("A stiffer reed")
     (tmp_path / "my.nml").write_text(BLOCKS[at][1], encoding="utf-8")
     shell("reedvalve run my.nml --quiet", tmp_path)
     at = place("import pandas")
-    assert told(BLOCKS[at][1], tmp_path) == BLOCKS[at + 1][1]
+    alike(told(BLOCKS[at][1], tmp_path), BLOCKS[at + 1][1])
 
 
 def test_design(tmp_path):
@@ -96,13 +107,12 @@ def readme(words):
 
 
 def test_readme_deck_and_summary(tmp_path):
-    """Numbers to what another processor's rounding leaves of them."""
     (tmp_path / "my.nml").write_text(readme("&run\n   title = 'A stiffer reed'"), encoding="utf-8")
     said = shell("reedvalve run my.nml", tmp_path).stdout.splitlines()
     assert said[:2] == readme("$ reedvalve run my.nml").splitlines()[1:3]
     ours = pd.read_csv(tmp_path / "my" / "summary.csv")
     printed = pd.read_csv(io.StringIO(readme("case,model,")))
-    pd.testing.assert_frame_equal(ours[printed.columns], printed, rtol=1e-7)
+    pd.testing.assert_frame_equal(ours[printed.columns], printed, rtol=ERROR)
 
 
 def test_readme_modes(tmp_path):
