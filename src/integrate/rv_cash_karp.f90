@@ -215,7 +215,7 @@ contains
       call problem%lanes%acceleration(first, last, inlet(5), outlet(5), q, v, a, closed)
       error = 0.0_wp
       do k = 1, n, size(error)
-         error = error + off(k:k + size(error) - 1)/(2*n/size(error))
+         error = error + off(k:k + size(error) - 1)/real(2*n/size(error), wp)
       end do
    end subroutine try_some
 

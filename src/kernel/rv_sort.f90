@@ -18,8 +18,9 @@ contains
       integer :: n, run, lo, i
 
       n = size(keys, 2)
-      key = keys(pack([(i, i = 1, size(keys, 1))], [(any(abs(keys(i, :) - keys(i, 1)) > 0.0_wp), i = 1, size(keys, 1))]), :)
       order = [(i, i = 1, n)]
+      if (n < 2) return
+      key = keys(pack([(i, i = 1, size(keys, 1))], [(any(abs(keys(i, :) - keys(i, 1)) > 0.0_wp), i = 1, size(keys, 1))]), :)
       run = 1
       do while (run < n)
          do lo = 1, n, 2*run

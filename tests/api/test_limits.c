@@ -12,13 +12,18 @@ enum { cases = 2000, many_cases = 4000000 };
 
 static const char *const gap[1] = {"film.gap_mm"};
 
+/* Its processor has neither floating-point traps nor flags. */
+static int under_valgrind(void) {
+  const char *preload = getenv("LD_PRELOAD");
+  return preload != NULL && strstr(preload, "vgpreload") != NULL;
+}
+
 /* The memory that a program may take is bounded neither under the address sanitizer nor under valgrind. */
 static int memory_has_bounds(void) {
 #ifdef __SANITIZE_ADDRESS__
   return 0;
 #else
-  const char *preload = getenv("LD_PRELOAD");
-  return preload == NULL || strstr(preload, "vgpreload") == NULL;
+  return !under_valgrind();
 #endif
 }
 
@@ -156,7 +161,7 @@ static void test_floats(void) {
   GOOD(valve, rv_valve_begin(valve, 0.0));
   CHECK(rv_valve_step(valve, 1.0, 0.0, 1e300, 0.0, 0.0) >= RV_NOT_CONVERGED);
   CHECK(rv_valve_free(&valve) == RV_OK);
-  CHECK(fegetexcept() == traps && fetestexcept(traps | FE_UNDERFLOW) == FE_UNDERFLOW);
+  CHECK(under_valgrind() || (fegetexcept() == traps && fetestexcept(traps | FE_UNDERFLOW) == FE_UNDERFLOW));
 #pragma omp parallel num_threads(2)
   fedisableexcept(traps);
   feclearexcept(FE_ALL_EXCEPT);
