@@ -194,26 +194,27 @@ static sunrealtype lanes_wrms_norm(N_Vector x, N_Vector w) {
   return bad ? 1.0e30 : sqrt(largest / c->states);
 }
 
-/* z = sum of c[j] x[j] in one pass, sixteen entries at a time; ARKODE lets z be x[0]. */
+/* z = sum of c[j] x[j] in one pass, thirty-two entries at a time; ARKODE lets z be x[0]. */
+enum { most_terms = 16 }; /* of one pass: stages of a table and the state */
+
 static int lanes_linear_combination(int terms, sunrealtype *c, N_Vector *x, N_Vector z) {
+  const double *xd[most_terms];
   double *zd = values(z);
   const sunindextype n = count(z);
   sunindextype i = 0;
-  for (; i + 16 <= n; i += 16) {
-    const octet *first = (const octet *)(values(x[0]) + i);
-    octet low = c[0] * first[0], high = c[0] * first[1];
-    for (int j = 1; j < terms; j++) {
-      const octet *next = (const octet *)(values(x[j]) + i);
-      low += c[j] * next[0];
-      high += c[j] * next[1];
+  if (terms > most_terms) return -1;
+  for (int j = 0; j < terms; j++) xd[j] = values(x[j]);
+  for (; i + 32 <= n; i += 32) {
+    octet sum[4] = {{0.0}};
+    for (int j = 0; j < terms; j++) {
+      const octet *next = (const octet *)(xd[j] + i);
+      for (int k = 0; k < 4; k++) sum[k] += c[j] * next[k];
     }
-    octet *sum = (octet *)(zd + i);
-    sum[0] = low;
-    sum[1] = high;
+    for (int k = 0; k < 4; k++) ((octet *)(zd + i))[k] = sum[k];
   }
   for (; i < n; i++) {
     double sum = 0.0;
-    for (int j = 0; j < terms; j++) sum += c[j] * values(x[j])[i];
+    for (int j = 0; j < terms; j++) sum += c[j] * xd[j][i];
     zd[i] = sum;
   }
   return 0;
