@@ -8,6 +8,7 @@ module rv_table_lanes
    use rv_film_reed, only : film_reed
    use rv_film_table, only : film_table
    use rv_film_valve, only : film_valve
+   use rv_largest, only : largest
    use rv_valve_lanes, only : valve_lanes, no_film_gap
    implicit none
    private
@@ -30,6 +31,7 @@ module rv_table_lanes
       procedure :: correction
       procedure :: stiffness_ratio
       procedure :: decay
+      procedure :: fastest_decay
       procedure :: film_force
       procedure :: film_forces
       procedure :: equilibrium
@@ -251,6 +253,19 @@ contains
       call self%table%look_up(1.0_wp + q(1)*self%inverse_gap(lane), y, y_slope, area, area_slope)
       decay = (self%damping(lane) + self%film_scale(lane)/y**3)*self%inverse_mass(lane)
    end function decay
+
+   pure real(wp) function fastest_decay(self, q, v)
+      class(table_lanes), intent(in) :: self
+      real(wp), intent(in), dimension(self%width, self%dofs) :: q, v
+      real(wp), dimension(self%width) :: x, y, y_slope, area, area_slope, rate
+
+      associate (unused => v)
+      end associate
+      x = 1.0_wp + q(:, 1)*self%inverse_gap
+      call self%table%look_up_all(x, y, y_slope, area, area_slope)
+      rate = (self%damping + self%film_scale/(y*y*y))*self%inverse_mass
+      fastest_decay = largest(rate)
+   end function fastest_decay
 
    !> k u = (p_in - p_out) (int_hole psi + A_land(u)) by Newton's method, kept above the table's lowest x.
    subroutine equilibrium(self, inlet, outlet, q, found)
