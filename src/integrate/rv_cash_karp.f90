@@ -47,6 +47,7 @@ module rv_cash_karp
       real(wp) :: next_step = 0.0_wp    !! [s]
       real(wp) :: frequency = 0.0_wp    !! the highest of all lanes [s-1]
       real(wp) :: past(2) = 0.0_wp      !! logarithms of errors over tolerance, of the last two steps, the last one first
+      logical :: is_bounded = .false.   !! the step that is tried, by stability
       real(wp), allocatable :: q(:, :), v(:, :), a(:, :)   !! at the end of the step that is tried, (width, dofs)
       real(wp), allocatable :: error(:)                    !! square of its error over tolerance, (width)
    contains
@@ -87,6 +88,7 @@ contains
       flag = step_failed
       longest = stable/max(self%frequency, problem%lanes%fastest_decay(step%q1, step%v1))
       do failures = 0, most_failures
+         self%is_bounded = self%next_step >= longest
          call choose_step(self, longest, t_stop - step%t1, dt, at_end)
          if (dt <= 4.0_wp*epsilon(dt)*max(abs(step%t1), abs(t_stop))) return
          call try_step(self, problem, step, dt, error)
@@ -323,14 +325,35 @@ contains
       flag = step_done
    end subroutine restart
 
-   pure integer function worst_lane(self)
+   integer function worst_lane(self, problem, step)
       class(cash_karp), intent(in) :: self
+      type(problem_type), intent(inout) :: problem
+      type(step_type), intent(in) :: step
 
+      if (self%is_bounded) then
+         worst_lane = stiffest_lane(problem, problem%lanes%width, step)
+         return
+      end if
       do worst_lane = 1, size(self%error)
          if (.not. self%error(worst_lane) <= huge(1.0_wp)) return
       end do
       worst_lane = maxloc(self%error, dim=1)
    end function worst_lane
+
+   !> The lane whose velocity decays fastest, of those whose film acts.
+   integer function stiffest_lane(problem, width, step) result(lane)
+      type(problem_type), intent(inout) :: problem
+      integer, intent(in) :: width
+      type(step_type), intent(in) :: step
+      real(wp), dimension(width, 1) :: a
+      real(wp), dimension(width, 1, 1) :: a_q, a_v
+      real(wp) :: inlet, outlet
+      integer :: closed
+
+      call problem%history%factors(step%t1, inlet, outlet)
+      call problem%lanes%linearise(1, width, inlet, outlet, step%q1, step%v1, a, a_q, a_v, closed)
+      lane = minloc(a_v(:, 1, 1), dim=1)
+   end function stiffest_lane
 
    subroutine get_reason(self, text)
       class(cash_karp), intent(in) :: self

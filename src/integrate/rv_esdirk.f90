@@ -121,9 +121,13 @@ contains
       flag = merge(step_done, step_failed, rv_arkode_restart(self%arkode, step%t1, step%q1, step%v1) >= 0)
    end subroutine restart
 
-   integer function worst_lane(self)
+   integer function worst_lane(self, problem, step)
       class(esdirk), intent(in) :: self
+      type(problem_type), intent(inout) :: problem
+      type(step_type), intent(in) :: step
 
+      associate (unused => [problem%rtol, step%t1])
+      end associate
       worst_lane = rv_arkode_worst_lane(self%arkode) + 1
    end function worst_lane
 

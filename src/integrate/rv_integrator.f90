@@ -41,10 +41,12 @@ module rv_integrator
          integer, intent(out) :: flag
       end subroutine restart_of
 
-      !> The lane with the largest error in the last step that was tried.
-      integer function worst_of(self)
-         import :: integrator_type
+      !> The lane that shortened the last step that was tried most: by its error, or where the method is stable.
+      integer function worst_of(self, problem, step)
+         import :: integrator_type, problem_type, step_type
          class(integrator_type), intent(in) :: self
+         type(problem_type), intent(inout) :: problem
+         type(step_type), intent(in) :: step   !! the last one that was good
       end function worst_of
 
       !> Why the last call failed.

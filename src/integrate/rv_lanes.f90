@@ -197,6 +197,7 @@ contains
             end if
             short = merge(short + 1, 0, before < no_progress*(settings%t_end - problem%history%start))
             if (short == 0) then
+               problem%hindrance = 0
                problem%closed = .false.
                if (allocated(problem%lanes%closure)) deallocate(problem%lanes%closure)
             end if
@@ -234,7 +235,7 @@ contains
       else
          status = status_no_convergence
          if (lane == 0) then
-            lane = integrator%worst_lane()
+            lane = integrator%worst_lane(problem, step)
             status = status_step_too_small
          end if
          call integrator%get_reason(reason)

@@ -15,7 +15,7 @@ contains
 
       top = 0_i8
       do i = 1, size(x)
-         top = max(top, transfer(x(i), top))
+         top = max(top, iand(transfer(x(i), top), huge(top)))   ! processors make NaN with a sign
       end do
       largest = transfer(top, largest)
    end function largest

@@ -3,7 +3,7 @@ program test_methods
    use rv_kinds, only : wp
    use rv_lanes, only : lane_outcome, lane_settings, method_auto, method_explicit, method_implicit
    use rv_lumped, only : lumped_lanes, lumped_valve, new_lumped_lanes
-   use rv_status, only : status_ok
+   use rv_status, only : status_ok, status_step_too_small
    use check, only : suite_type
    use paper_valve, only : run_lumped, valve_at, wave_40ms, kpa, mm, ms
    implicit none
@@ -15,6 +15,7 @@ program test_methods
    call agreement(1.0e-7_wp)
    call choice()
    call closed_film()
+   call hopeless_film()
    call trial_stages()
    call suite%finish()
 
@@ -83,6 +84,26 @@ contains
       call suite%true("the lane on its seat fails: "//outcome%message(1)%s, outcome%status(1) /= status_ok)
       call suite%true("its neighbour ends well", outcome%status(2) == status_ok)
    end subroutine closed_film
+
+   !> A film that settles faster than time can be told apart ends its own lane, whichever its place, and no other: at the
+   !> first step, and after steps that no longer move the time. Every lane's error is then next to nothing.
+   subroutine hopeless_film()
+      type(lane_outcome) :: outcome
+      type(lumped_valve) :: valve(3)
+      real(wp), parameter :: gap(2) = [1.0e-7_wp*mm, 2.0e-6_wp*mm]
+      integer :: i, k
+
+      do k = 1, size(gap)
+         do i = 1, 3
+            valve = valve_at(20.0_wp*kpa, 0.1_wp*mm, k_s)
+            valve(i)%gap = gap(k)
+            valve(i)%both_ways = .true.
+            call run_lumped(valve, wave_40ms(), settings_of(method_explicit, 1.0e-4_wp), no_times, outcome)
+            call suite%equal("lane that fails: "//outcome%message(i)%s, outcome%status(i), status_step_too_small)
+            call suite%equal("lanes that end well", count(outcome%status == status_ok), 2)
+         end do
+      end do
+   end subroutine hopeless_film
 
    !> A trial stage that runs through the seat costs the step, not the case: thin oil, far openings, one case at a time.
    subroutine trial_stages()

@@ -21,5 +21,7 @@ program test_largest
    call suite%true("infinity is above all numbers", largest(x) > huge(1.0_wp))
    x(5) = ieee_value(1.0_wp, ieee_quiet_nan)
    call suite%true("NaN is above infinity", ieee_is_nan(largest(x)))
+   x(5) = sign(x(5), -1.0_wp)   ! as processors make it
+   call suite%true("NaN with a sign, too", ieee_is_nan(largest(x)))
    call suite%finish()
 end program test_largest
