@@ -231,7 +231,7 @@ contains
       top = max(u0, u1)
       low = min(u0, u1)
       meet = u0 + w0*((u1 - u0 - w1*dt)/(w0 - w1))
-      reach = merge(allowance*max(meet - top, low - meet), 0.0_wp, w0*w1 < 0.0_wp)
+      reach = merge(allowance*max(meet - top, low - meet, 0.0_wp), 0.0_wp, w0*w1 < 0.0_wp)
       top = top + reach
       low = low - reach
    end subroutine look_around

@@ -125,6 +125,11 @@ contains
       m = measures_of(curve_type(event=9.0_wp, before=[1.0_wp, -0.3_wp, 0.15_wp, 0.0_wp, 0.0_wp, 0.0_wp]), [0.0_wp, 3.0_wp])
       call suite%close("down to 85 % and up to 98 % in one step: opening", m(opening), 1.0_wp + sqrt(0.13_wp/0.15_wp), &
          & 32.0_wp*ulp, 0.0_wp)
+      ! 0.15 x^2 (x - 2)^2 is above 10 % about its top at x = 1, near which a step ends; its end's tangents meet below
+      m = measures_of(curve_type(event=9.0_wp, before=[0.0_wp, 0.0_wp, 0.6_wp, -0.6_wp, 0.15_wp, 0.0_wp]), &
+         & [0.01_wp, 1.03_wp, 2.05_wp, 3.2_wp])
+      call suite%close("rise from 10 % in a step that turns at its end", m(rise), sqrt(1.0_wp + sqrt(6.0_wp)) &
+         & + sqrt(1.0_wp - sqrt(2.0_wp/3.0_wp)), 64.0_wp*ulp, 0.0_wp)
    end subroutine extremes_inside_a_step
 
    !> Never above the steady displacement before the event, never below rest after it: zero, not missing.
