@@ -43,7 +43,7 @@ demo:
 	@echo "The report: $(abspath $(demo)/report.html)"
 
 test: build
-	@echo "== tests: about a minute; what they say comes when they are done"
+	@echo "== tests: a few minutes; what they say comes when they are done"
 	@$(MAKE) --no-print-directory --keep-going --jobs=2 --output-sync=target test-programs test-python
 test-programs:
 	@ctest --preset release

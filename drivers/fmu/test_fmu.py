@@ -507,7 +507,7 @@ def test_packing(tmp_path: Path) -> None:
     assert "must be >= 0" in reedvalve("fmu", deck, status=2)
     assert "there is no such file" in reedvalve("fmu", tmp_path / "none.nml", status=3)
     deck.write_text("&film gap_mm = 0.05 /")
-    assert "No such file" in reedvalve("fmu", deck, "-o", tmp_path / "no" / "my.fmu", status=3)
+    assert "no/my.fmu': No such file" in reedvalve("fmu", deck, "-o", tmp_path / "no" / "my.fmu", status=3)
     assert sorted(p.name for p in tmp_path.iterdir()) == ["again.fmu", "my.fmu", "my.nml"]
 
 

@@ -251,6 +251,10 @@ contains
       integer(c_int), intent(inout) :: code
 
       if (samples == size(valve%time, kind=c_size_t)) return
+      if (size(valve%time) == 0) then
+         call refuse(valve, "there are no traces: set run.traces to .true. before the run", code)
+         return
+      end if
       call refuse(valve, "the array must have "//to_text(size(valve%time))//" elements, one for each sample", code)
    end subroutine check_samples
 

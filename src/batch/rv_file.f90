@@ -26,7 +26,7 @@ module rv_file
    type :: file_type
       private
       integer(c_int) :: fd = -1
-      character(len=:), allocatable :: path
+      character(len=:), allocatable :: name   !! in messages
       character(len=:), allocatable :: buffer
       integer :: used = 0
       integer(int32), public :: crc = 0          !! of the bytes put and got, bar texts, since it was opened or this was 0
@@ -93,7 +93,7 @@ contains
       character(len=*), intent(in) :: path
       type(error_type), allocatable, intent(out) :: error
 
-      call self%start(path, mode_read, "open", error)
+      call self%start(path, path, mode_read, "open", error)
    end subroutine open_old
 
    !> Open for writing; what was there is lost.
@@ -102,7 +102,7 @@ contains
       character(len=*), intent(in) :: path
       type(error_type), allocatable, intent(out) :: error
 
-      call self%start(path, mode_create, "write", error)
+      call self%start(path, path, mode_create, "write", error)
    end subroutine create
 
    !> Open for writing behind what is there.
@@ -111,7 +111,7 @@ contains
       character(len=*), intent(in) :: path
       type(error_type), allocatable, intent(out) :: error
 
-      call self%start(path, mode_append, "write", error)
+      call self%start(path, path, mode_append, "write", error)
    end subroutine append
 
    !> Write `size` bytes.
@@ -124,7 +124,7 @@ contains
       call self%flush_buffer(error)
       if (allocated(error)) return
       self%crc = crc32_of(data, size, self%crc)
-      call check(c_write(self%fd, data, int(size, c_size_t)), "write", self%path, error)
+      call check(c_write(self%fd, data, int(size, c_size_t)), "write", self%name, error)
    end subroutine put
 
    !> Write text, sooner or later: at the latest with sync or close.
@@ -161,10 +161,10 @@ contains
       type(error_type), allocatable, intent(out) :: error
       integer(c_size_t) :: got
 
-      call check(c_read(self%fd, data, int(size, c_size_t), got), "read", self%path, error)
+      call check(c_read(self%fd, data, int(size, c_size_t), got), "read", self%name, error)
       if (allocated(error)) return
       if (got < size) then
-         call fail(error, rv_io, "'"//self%path//"' is cut short")
+         call fail(error, rv_io, "'"//self%name//"' is cut short")
          return
       end if
       self%crc = crc32_of(data, size, self%crc)
@@ -184,7 +184,7 @@ contains
 
       call self%flush_buffer(error)
       if (allocated(error)) return
-      call check(c_sync(self%fd), "write", self%path, error)
+      call check(c_sync(self%fd), "write", self%name, error)
    end subroutine sync
 
    !> Close; harmless when nothing is open. Without `error`, what is in the buffer is dropped.
@@ -199,7 +199,7 @@ contains
       self%fd = -1
       self%used = 0
       if (.not. present(error)) return
-      if (.not. allocated(error)) call check(status, "write", self%path, error)
+      if (.not. allocated(error)) call check(status, "write", self%name, error)
    end subroutine close_file
 
    !> The bytes of a file. `found` is false, without an error, when there is none.
@@ -234,10 +234,18 @@ contains
       character(len=*), intent(in) :: path
       character(len=*), intent(in) :: text
       type(error_type), allocatable, intent(out) :: error
+
+      call write_called(path, path, text, error)
+   end subroutine write_whole_file
+
+   !> The same; messages have another name for it.
+   subroutine write_called(path, name, text, error)
+      character(len=*), intent(in) :: path, name, text
+      type(error_type), allocatable, intent(out) :: error
       type(error_type), allocatable :: ignored
       type(file_type) :: file
 
-      call file%create(path//new_suffix, error)
+      call file%start(path//new_suffix, name, mode_create, "write", error)
       if (allocated(error)) return
       call file%put_text(text, error)
       if (.not. allocated(error)) call file%sync(error)
@@ -246,7 +254,7 @@ contains
       if (.not. allocated(error)) return
       call file%close()
       call remove_file(path//new_suffix, ignored)
-   end subroutine write_whole_file
+   end subroutine write_called
 
    !> Write a file so that it is there whole and on the disk, unless there is one of that name already: then that
    !> one stays and `taken` is true. Several processes may try at once.
@@ -260,23 +268,24 @@ contains
 
       taken = .false.
       own = path//own_suffix()
-      call write_whole_file(own, text, error)
+      call write_called(own, path, text, error)
       if (allocated(error)) return
       call claim_name(own, path, taken, error)
       if (allocated(error)) call remove_file(own, ignored)
    end subroutine claim_whole_file
 
-   subroutine start(self, path, mode, what, error)
+   subroutine start(self, path, name, mode, what, error)
       class(file_type), intent(inout) :: self
       character(len=*), intent(in) :: path
+      character(len=*), intent(in) :: name      !! of the file in messages
       integer(c_int), intent(in) :: mode
       character(len=*), intent(in) :: what
       type(error_type), allocatable, intent(out) :: error
 
       call self%close()
-      self%path = path
+      self%name = name
       self%crc = 0
-      call check(c_open(c_text(path), mode, self%fd), what, path, error)
+      call check(c_open(c_text(path), mode, self%fd), what, name, error)
    end subroutine start
 
    subroutine flush_buffer(self, error)
@@ -295,7 +304,7 @@ contains
       character(len=*), target, intent(in) :: text
       type(error_type), allocatable, intent(out) :: error
 
-      call check(c_write(self%fd, c_loc(text), len(text, c_size_t)), "write", self%path, error)
+      call check(c_write(self%fd, c_loc(text), len(text, c_size_t)), "write", self%name, error)
    end subroutine write_text
 
    subroutine check(number, what, path, error)

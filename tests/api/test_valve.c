@@ -216,6 +216,7 @@ static void test_wrong_order(void) {
   FAILS(valve, rv_valve_status(valve, &status), RV_BAD_INPUT, "run the valve first");
   FAILS(valve, rv_valve_trace_size(valve, &samples), RV_BAD_INPUT, "run the valve first");
   GOOD(valve, rv_valve_run(valve));
+  FAILS(valve, rv_valve_trace_times(valve, &value, 1), RV_BAD_INPUT, "set run.traces to .true.");
   FAILS(valve, rv_valve_measure(valve, "stedy_mm", &value), RV_BAD_INPUT, "no such name");
   CHECK(isnan(value));
   FAILS(valve, rv_valve_fact(valve, "reynold", &value), RV_BAD_INPUT, "'reynold': there is no such name");

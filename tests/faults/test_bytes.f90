@@ -69,7 +69,7 @@ contains
       call path_kind("/", kind, error)
       call suite%equal("the root is a folder", kind, path_folder)
       call write_whole_file("no/such/folder.txt", "x", error)
-      call suite%fails("write where there is no folder", error, "cannot write 'no/such/folder.txt.new': No such file")
+      call suite%fails("write where there is no folder", error, "cannot write 'no/such/folder.txt': No such file")
    end subroutine test_whole_files
 
    !> Who comes second finds the first one's file, and leaves nothing.

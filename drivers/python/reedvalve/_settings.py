@@ -18,6 +18,7 @@ from ._names import KEYS, Kind
 
 Value = Union[float, int, bool, str]
 Self = TypeVar("Self", bound="Settings")
+_GROUPS = frozenset(name.partition(".")[0] for name in KEYS)
 
 
 class Settings(Mapping[str, Value]):
@@ -40,7 +41,12 @@ class Settings(Mapping[str, Value]):
             raise error_of(code, message)
         warn(message)
         for name, value in keys.items():
-            self[name if "." in name else name.replace("_", ".", 1)] = value
+            self[_key_of(name)] = value
+
+    def __setattr__(self, name: str, value: object) -> None:
+        if _key_of(name) in KEYS:
+            raise AttributeError(f"{name}: settings are items: valve[{_key_of(name)!r}] = {value!r}")
+        super().__setattr__(name, value)
 
     def close(self) -> None:
         """Give the memory back; more than once is fine. Every other call is a BadInputError from then on."""
@@ -133,6 +139,12 @@ class Settings(Mapping[str, Value]):
         if "pressure.file" in found:
             found["pressure.file"] = os.path.join(self._folder, str(found["pressure.file"]))
         return found
+
+
+def _key_of(word: str) -> str:
+    """The key that a Python name stands for; a word that begins with no group stays what it is."""
+    group, _, name = word.partition("_")
+    return f"{group}.{name}" if group in _GROUPS else word
 
 
 def encoded(text: str) -> bytes:

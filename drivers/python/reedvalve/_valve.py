@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ctypes
+import operator
 import warnings
 from collections.abc import Mapping
 from typing import Any, Callable
@@ -122,7 +123,7 @@ class Valve(Stepping):
                     raise UnknownKeyError(self._advice(name))
             self._check(
                 LIB.rv_sweep(self._handle, len(names), names, len(values), values.ctypes.data, measures.ctypes.data,
-                             status.ctypes.data, max(-1, min(threads, 2**31 - 1)))
+                             status.ctypes.data, max(-1, min(operator.index(threads), 2**31 - 1)))
             )  # fmt: skip
             message = self._message()
             model = str(self["run.model"])

@@ -164,9 +164,10 @@ def test_cases_that_fail_in_a_sweep() -> None:
          "a sweep takes from 1 to 1024 threads; 0: as many as OpenMP offers"),
         ({"film.gap_mm": [1.0]}, 2**32 + 1, rv.BadInputError,
          "a sweep takes from 1 to 1024 threads; 0: as many as OpenMP offers"),
+        ({"film.gap_mm": [1.0]}, 0.5, TypeError, "'float' object cannot be interpreted as an integer"),
     ],
 )  # fmt: skip
-def test_wrong_sweep(keys: dict, threads: int, kind: type[Exception], message: str) -> None:
+def test_wrong_sweep(keys: dict, threads: float, kind: type[Exception], message: str) -> None:
     """Nothing is run."""
     with pytest.raises(kind) as caught:
         rv.Valve().sweep(keys, threads=threads)

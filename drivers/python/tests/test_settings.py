@@ -101,6 +101,10 @@ def test_settings_by_name() -> None:
     assert rv.Valve(**{"film.gap_mm": 0.03})["film.gap_mm"] == 0.03
     with pytest.raises(rv.UnknownKeyError, match=r"'film[.]gap': there is no such key"):
         rv.Valve(film_gap=1.0)
+    with pytest.raises(rv.UnknownKeyError, match=r"'gap_mm': there is no such key; write it with its group"):
+        rv.Valve(gap_mm=1.0)
+    with pytest.raises(AttributeError, match=r"valve\['film[.]gap_mm'\] = 0.1"):
+        rv.Valve().film_gap_mm = 0.1
     valve = rv.Valve()
     valve.update({"film.gap_mm": 0.03, "run.model": "film"})
     assert repr(valve) == "Valve(run.model='film', film.gap_mm=0.03)"
