@@ -35,7 +35,7 @@ module rv_cash_karp
    real(wp), parameter :: bias = 1.5_wp, safety = 0.96_wp, fastest_growth = 10.0_wp, worth_it = 1.1_wp
    real(wp), parameter :: least_cut = 0.9_wp, largest_cut = 0.1_wp   !! after a step that failed
    !> Step times natural frequency or rate of decay. Up to there the errors of a lane that has come to rest shrink, if its
-   !> damping is 0.1 of the critical one or more; from 3.0 to 3.7 on they grow until they fill the tolerance.
+   !> damping is 0.1 of the critical one or more; from 2.88 to 3.7 on they grow until they fill the tolerance.
    real(wp), parameter :: stable = 2.75_wp
    real(wp), parameter :: least_error = 1.0e-10_wp
    real(wp), parameter :: refused = 1.0e20_wp                        !! error of a step that has none
