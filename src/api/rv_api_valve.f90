@@ -4,7 +4,7 @@ module rv_api_valve
    use rv_error, only : error_type, rv_bad_input, rv_internal
    use rv_text, only : to_text
    use rv_api_call, only : begin_call, refuse, settle, put_number, put_nan, rv_ok, no_valve, no_pointer, no_text
-   use rv_c_text, only : give_text, take_text
+   use rv_c_text, only : give_lines, give_text, take_text
    use rv_floats, only : float_guard
    use rv_handles, only : valve_type, open_handle, close_handle, valve_of
    use rv_setup, only : new_setup, read_setup
@@ -66,7 +66,7 @@ contains
       call read_setup(valve%setup, file, valve%message, error)
       !$omp end critical (rv_api_text)
       call settle(valve, error, code)
-      call give_text(valve%message, message, size)
+      call give_lines(valve%message, message, size)
       if (allocated(error)) then
          deallocate(valve)
       else
@@ -98,7 +98,7 @@ contains
 
       call valve_of(self, valve)
       if (associated(valve)) then
-         call give_text(valve%message, buffer, size)
+         call give_lines(valve%message, buffer, size)
          code = rv_ok
       else
          call give_text(no_valve, buffer, size)

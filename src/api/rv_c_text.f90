@@ -3,7 +3,7 @@ module rv_c_text
    use, intrinsic :: iso_c_binding, only : c_associated, c_char, c_f_pointer, c_null_char, c_ptr, c_size_t
    implicit none
    private
-   public :: take_text, give_text, longest_text
+   public :: take_text, give_text, give_lines, longest_text
 
    integer, parameter :: longest_text = 4096   !! that is taken from a caller [byte]
 
@@ -49,5 +49,19 @@ contains
       end do
       byte(n + 1) = c_null_char
    end subroutine give_text
+
+   !> The same for lines, of which the last one comes without its end.
+   subroutine give_lines(text, buffer, size)
+      character(len=*), intent(in) :: text
+      type(c_ptr), intent(in) :: buffer
+      integer(c_size_t), intent(in) :: size
+      integer :: n
+
+      n = len(text)
+      if (n > 0) then
+         if (text(n:n) == new_line("a")) n = n - 1
+      end if
+      call give_text(text(:n), buffer, size)
+   end subroutine give_lines
 
 end module rv_c_text

@@ -281,6 +281,7 @@ static void test_decks(void) {
   CHECK(rv_valve_new_deck("api_bad.nml", &valve, text, sizeof text) == RV_BAD_INPUT);
   CHECK(valve == NULL);
   CHECK(strstr(text, "did you mean 'gap_mm'?") != NULL && strstr(text, "film.k_s = -1.0") != NULL); /* both faults */
+  CHECK(text[strlen(text) - 1] != '\n');
   write_deck("api_two.nml", "&sweep key = 'film.gap_mm', values = 0.04, 0.05 /\n");
   CHECK(rv_valve_new_deck("api_two.nml", &valve, text, sizeof text) == RV_BAD_INPUT);
   CHECK(strstr(text, "2 cases") != NULL);
