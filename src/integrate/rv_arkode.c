@@ -30,6 +30,8 @@
 
 struct rv_arkode {
   int lanes, states;
+  double first_step; /* of the start and of each corner; 0: all steps are of one length */
+  int at_corner;     /* the last step ended at a stop time */
   rv_rhs_fn rhs;
   rv_stage_fn stage;
   rv_weight_fn weight;
@@ -344,7 +346,7 @@ static int failed(rv_arkode *self, const char *call, int flag) {
   } while (0)
 
 /* Each setting that a later SUNDIALS changes the default of is set by name. */
-static int configure(rv_arkode *self, const char *table, double first_step) {
+static int configure(rv_arkode *self, const char *table) {
   void *m = self->memory;
 #if SUNDIALS_NUMBER >= 700
   TRY(SUNContext_ClearErrHandlers(self->context));
@@ -364,7 +366,7 @@ static int configure(rv_arkode *self, const char *table, double first_step) {
   TRY(ARK(SetSafetyFactor)(m, 0.96));
   TRY(ARK(SetErrorBias)(m, 1.5));
   TRY(ARK(SetFixedStepBounds)(m, 1.0, 1.1));
-  TRY(ARK(SetInitStep)(m, first_step));
+  TRY(ARK(SetInitStep)(m, self->first_step));
   TRY(ARK(SetMaxErrTestFails)(m, 30));
 #if SUNDIALS_NUMBER >= 701
   TRY(ARKodeSetAdaptController(m, self->controller));
@@ -387,7 +389,7 @@ static void get_state(rv_arkode *self, double *q, double *v) {
   memcpy(v, values(self->y) + half, half * sizeof(double));
 }
 
-static int build(rv_arkode *self, double t0, const double *q0, const double *v0, const char *table, double first_step) {
+static int build(rv_arkode *self, double t0, const double *q0, const double *v0, const char *table) {
   if (CONTEXT_CREATE(&self->context) != 0) {
     snprintf(self->message, sizeof self->message, "SUNContext_Create failed");
     return -1;
@@ -406,7 +408,7 @@ static int build(rv_arkode *self, double t0, const double *q0, const double *v0,
     snprintf(self->message, sizeof self->message, "no memory for an integrator of %d lanes", self->lanes);
     return -1;
   }
-  return configure(self, table, first_step);
+  return configure(self, table);
 }
 
 int rv_arkode_new(int lanes, int states, double t0, const double *q0, const double *v0, const char *table, double first_step, rv_rhs_fn rhs,
@@ -416,31 +418,56 @@ int rv_arkode_new(int lanes, int states, double t0, const double *q0, const doub
   if (self == NULL) return -1;
   self->lanes = lanes;
   self->states = states;
+  self->first_step = first_step;
   self->rhs = rhs;
   self->stage = stage;
   self->weight = weight;
   self->data = data;
-  return build(self, t0, q0, v0, table, first_step);
+  return build(self, t0, q0, v0, table);
+}
+
+/* Where the next step ends at the latest: the last two before a stop time share what is left. */
+static int choose_end(rv_arkode *self, double t, double t_stop, double *end) {
+  const double left = t_stop - t, rounding = 1.0e-9;
+  double next;
+  *end = t_stop;
+  TRY(ARK(GetCurrentStep)(self->memory, &next));
+  if (self->first_step > 0.0 && left > (1.0 + rounding) * next && left < 2.0 * next) *end = t + 0.5 * left;
+  return 0;
+}
+
+/* The state in y is that of time t. What was known of errors and lengths of steps is not true of what follows. */
+static int begin_anew(rv_arkode *self, double t) {
+  self->at_corner = 0;
+  if (self->first_step > 0.0) TRY(ARK(SetInitStep)(self->memory, self->first_step));
+  TRY(ARK(Reset)(self->memory, t, self->y));
+  return 0;
 }
 
 int rv_arkode_step(rv_arkode *self, double t_stop, double *t, double *q, double *v) {
+  double end = t_stop;
+  int flag;
   self->message[0] = '\0';
-  TRY(ARK(SetStopTime)(self->memory, t_stop));
+  if (self->at_corner) TRY(begin_anew(self, *t));
+  TRY(choose_end(self, *t, t_stop, &end));
+  TRY(ARK(SetStopTime)(self->memory, end));
   /* A step that does not move the time would be repeated for ever: fail instead. */
   TRY(ARK(SetMinStep)(self->memory, 4.0 * DBL_EPSILON * fmax(fabs(*t), fabs(t_stop))));
-  const int flag = ARK(Evolve)(self->memory, t_stop, self->y, t, ARK_ONE_STEP);
+  flag = ARK(Evolve)(self->memory, end, self->y, t, ARK_ONE_STEP);
   if (flag < 0) return failed(self, "ARKODE", flag);
   get_state(self, q, v);
-  return flag == ARK_TSTOP_RETURN ? RV_AT_STOP : RV_STEPPED;
+  self->at_corner = flag == ARK_TSTOP_RETURN && end == t_stop;
+  return self->at_corner ? RV_AT_STOP : RV_STEPPED;
 }
 
 int rv_arkode_restart(rv_arkode *self, double t, const double *q, const double *v) {
   self->message[0] = '\0';
   put_state(self, q, v);
-  return failed(self, "restart", ARK(Reset)(self->memory, t, self->y));
+  return begin_anew(self, t);
 }
 
 int rv_arkode_fix_step(rv_arkode *self, double step) {
+  self->first_step = 0.0;
   return failed(self, "fixed step", ARK(SetFixedStep)(self->memory, step));
 }
 

@@ -299,11 +299,11 @@ contains
       real(wp) :: h
       integer :: flag
 
-      h = settings%first_step
-      if (.not. h > 0.0_wp) h = first_step(problem)
-      flag = step_done
       outcome%is_explicit = settings%method == method_explicit &
          & .or. settings%method == method_auto .and. maxval(problem%lanes%stiffness_ratio()) <= explicit_up_to
+      h = settings%first_step
+      if (.not. h > 0.0_wp) h = merge(0.6_wp, 4.0_wp, outcome%is_explicit)*first_step(problem)
+      flag = step_done
       if (outcome%is_explicit) then
          allocate(explicit)
          call new_cash_karp(explicit, problem, h, settings%fixed_step)
@@ -319,12 +319,12 @@ contains
       call fail_rest(outcome, status_no_convergence, reason)
    end function start_integrator
 
-   !> A first step that is a small part of the fastest lane's slowest oscillation: an error per step near the tolerance
-   !> for a pressure that jumps at the start.
+   !> What a first step is in proportion to: the fastest lane's slowest oscillation, and the tolerance as errors of a step
+   !> are to its length.
    pure real(wp) function first_step(problem) result(h)
       type(problem_type), intent(in) :: problem
 
-      h = 0.6_wp*problem%rtol**0.2_wp*minval(maxval(problem%q_scale/problem%v_scale, dim=2))
+      h = problem%rtol**0.2_wp*minval(maxval(problem%q_scale/problem%v_scale, dim=2))
    end function first_step
 
    !> A step of no length at t.

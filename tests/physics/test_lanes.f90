@@ -183,7 +183,7 @@ contains
       type(lane_outcome) :: outcome, exact
       type(lane_settings) :: settings
       type(lumped_valve) :: valve(2)
-      real(wp), parameter :: limit = 1.0e-3_wp   ! before the dense output knew of them: 0.1 and 0.04
+      real(wp), parameter :: limit = 2.0e-3_wp   ! before the dense output knew of them: 0.1 and 0.04
       real(wp) :: time(2001)
       integer :: i
 
