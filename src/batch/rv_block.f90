@@ -1,8 +1,8 @@
 !> Run one block: a fixed stretch of consecutive cases.
 !>
 !> The block is the unit of work, of the crash journal and of reproducibility. Its cases are sorted by
-!> the times of their pressure history (lanes must share those) and, within them, by how fast film and
-!> pressure move the reed (lanes of like cases share their step sizes best), then cut into groups of at most
+!> the times of their pressure history (lanes must share those) and, within them, by how the film slows the
+!> reed and by pressure (lanes of like cases share their step sizes best), then cut into groups of at most
 !> `solver.width` lanes; results come back in deck order. The cut depends on the block alone, never on who runs it.
 module rv_block
    use, intrinsic :: ieee_arithmetic, only : ieee_is_nan, ieee_value, ieee_quiet_nan
@@ -18,8 +18,8 @@ module rv_block
       & key_film_vapour_pressure_kpa, key_fluid_viscosity_pa_s, key_reed_a_mm, key_reed_b_mm, key_reed_hole_diameter_mm, &
       & key_pressure_kind, key_pressure_inlet_kpa, &
       & key_pressure_period_ms, key_pressure_transition_ms, key_pressure_file, key_pressure_event_ms, &
-      & key_solver_rtol, key_solver_max_steps, key_solver_width
-   use rv_lanes, only : lane_outcome, run_lanes
+      & key_solver_rtol, key_solver_max_steps, key_solver_method, key_solver_width
+   use rv_lanes, only : lane_outcome, method_implicit, run_lanes
    use rv_measures, only : n_measures, measure_steady, measure_overshoot, measure_undershoot
    use rv_number, only : tidy
    use rv_pressure, only : pressure_history
@@ -76,6 +76,7 @@ contains
       real(wp), allocatable :: value(:, :), order_by(:, :), time(:)
       integer, allocatable :: order(:)
       integer :: n, i, top, widest
+      logical :: is_implicit
 
       planform => own
       if (present(cache)) planform => cache
@@ -92,7 +93,8 @@ contains
       end do
       where (ieee_is_nan(order_by)) order_by = -huge(1.0_wp)
 
-      order = sorted_order(order_by)
+      is_implicit = nint(deck%value(key_solver_method)) == method_implicit
+      order = like_by_like(order_by, strip=merge(2, 1, is_implicit)*nint(deck%value(key_solver_width)))
       i = 1
       do while (i <= n)
          widest = min(n, i - 1 + widest_group(deck, value(:, order(i))))
@@ -101,6 +103,23 @@ contains
          i = top + 1
       end do
    end subroutine run_block
+
+   !> The order of cases, which are columns of `key`: by what they share, then by the last but one, then by the last.
+   !>
+   !> Of each `strip` that follow each other the last decides alone. That narrows the groups' range of pressures at the
+   !> price of their range of stiffness, which bounds explicit steps.
+   pure function like_by_like(key, strip) result(order)
+      real(wp), intent(in) :: key(:, :)
+      integer, intent(in) :: strip
+      integer :: order(size(key, 2))
+      integer :: i, k, top
+
+      order = sorted_order(key)
+      do i = 1, size(order), strip
+         top = min(i + strip - 1, size(order))
+         order(i:top) = order(i - 1 + sorted_order(key([(k, k=1, n_shared), n_shared + 2], order(i:top))))
+      end do
+   end function like_by_like
 
    !> How many of the first columns are equal.
    pure integer function length_of_group(shared) result(length)
