@@ -4,6 +4,7 @@
 #include <arkode/arkode_arkstep.h>
 #include <float.h>
 #include <math.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -28,53 +29,91 @@
 #define ARK(name) ARKStep##name
 #endif
 
-struct rv_arkode {
-  int lanes, states;
-  double first_step; /* of the start and of each corner; 0: all steps are of one length */
-  int at_corner;     /* the last step ended at a stop time */
-  rv_rhs_fn rhs;
-  rv_stage_fn stage;
-  rv_weight_fn weight;
-  void *data;
-  SUNContext context;
-  void *memory;
-  N_Vector y;
-  SUNNonlinearSolver solver;
-#if SUNDIALS_NUMBER >= 701
-  SUNAdaptController controller;
-#endif
-  char message[256];
-};
-
 /* ---- Vector of lanes ------------------------------------------------------------------------ */
 
-typedef struct {
+/* Vectors that are equal share their numbers, for ARKODE copies and clears more than it computes. Each vector brings
+ * numbers along, so that one that is to be written finds some that nobody uses. Vectors never outlive their store. */
+typedef struct numbers {
+  int users; /* vectors that have these */
   double *data;
+  struct numbers *next; /* free as well */
+} numbers;
+
+typedef struct {
   int lanes, states;
+  numbers *zero, *free;
+} lane_store;
+
+typedef struct {
+  lane_store *store;
+  numbers *shared;
 } lane_content;
 
-static inline double *values(N_Vector v) { return ((lane_content *)v->content)->data; }
+static lane_store *store_of(N_Vector v) { return ((lane_content *)v->content)->store; }
 
-static inline sunindextype count(N_Vector v) {
-  const lane_content *c = v->content;
-  return (sunindextype)c->lanes * c->states;
+static numbers **numbers_of(N_Vector v) { return &((lane_content *)v->content)->shared; }
+
+static const double *values(N_Vector v) { return (*numbers_of(v))->data; }
+
+static void release(lane_store *store, numbers *old) {
+  if (--old->users > 0) return;
+  old->next = store->free;
+  store->free = old;
 }
 
-static N_Vector lanes_new(SUNContext context, int lanes, int states);
+/* Let z have the numbers of another vector, or zeros. */
+static void share(N_Vector z, numbers *with) {
+  with->users++;
+  release(store_of(z), *numbers_of(z));
+  *numbers_of(z) = with;
+}
+
+/* Numbers of z's own, to be written one and all. What it had stays readable until the next call. */
+static double *new_values(N_Vector z) {
+  lane_store *store = store_of(z);
+  numbers **own = numbers_of(z);
+  if ((*own)->users > 1) {
+    numbers *fresh = store->free;
+    store->free = fresh->next;
+    fresh->users = 1;
+    (*own)->users--;
+    *own = fresh;
+  }
+  return (*own)->data;
+}
+
+static sunindextype count(N_Vector v) {
+  const lane_store *store = store_of(v);
+  return (sunindextype)store->lanes * store->states;
+}
+
+static bool is_zero(N_Vector v) { return *numbers_of(v) == store_of(v)->zero; }
+
+static N_Vector lanes_new(SUNContext context, lane_store *store);
 
 static N_Vector_ID lanes_id(N_Vector v) {
   (void)v;
   return SUNDIALS_NVEC_CUSTOM;
 }
 
-static N_Vector lanes_clone(N_Vector v) {
-  const lane_content *c = v->content;
-  return lanes_new(v->sunctx, c->lanes, c->states);
+static N_Vector lanes_clone(N_Vector v) { return lanes_new(v->sunctx, store_of(v)); }
+
+static void drop_numbers(numbers *these) {
+  if (these != NULL) free(these->data);
+  free(these);
 }
 
+/* With the vector goes the room that came with it. */
 static void lanes_destroy(N_Vector v) {
   if (v == NULL) return;
-  if (v->content != NULL) free(values(v));
+  if (v->content != NULL) {
+    lane_store *store = store_of(v);
+    numbers *one;
+    release(store, *numbers_of(v));
+    one = store->free;
+    store->free = one->next;
+    drop_numbers(one);
+  }
   free(v->content);
   v->content = NULL;
   N_VFreeEmpty(v);
@@ -85,57 +124,76 @@ static void lanes_space(N_Vector v, sunindextype *reals, sunindextype *integers)
   *integers = 2;
 }
 
-static void lanes_linear_sum(sunrealtype a, N_Vector x, sunrealtype b, N_Vector y, N_Vector z) {
-  const double *xd = values(x), *yd = values(y);
-  double *zd = values(z);
+static void lanes_scale(sunrealtype c, N_Vector x, N_Vector z) {
+  const double *xd = values(x);
   const sunindextype n = count(z);
-  for (sunindextype i = 0; i < n; i++) zd[i] = a * xd[i] + b * yd[i];
+  double *zd;
+  if (c == 0.0 || c == 1.0) {
+    share(z, c == 0.0 ? store_of(z)->zero : *numbers_of(x));
+    return;
+  }
+  zd = new_values(z);
+  for (sunindextype i = 0; i < n; i++) zd[i] = c * xd[i];
 }
 
 static void lanes_const(sunrealtype c, N_Vector z) {
-  double *zd = values(z);
   const sunindextype n = count(z);
+  double *zd;
+  if (c == 0.0) {
+    share(z, store_of(z)->zero);
+    return;
+  }
+  zd = new_values(z);
   for (sunindextype i = 0; i < n; i++) zd[i] = c;
+}
+
+static void lanes_linear_sum(sunrealtype a, N_Vector x, sunrealtype b, N_Vector y, N_Vector z) {
+  const double *xd = values(x), *yd = values(y);
+  const sunindextype n = count(z);
+  double *zd;
+  if (xd == yd) {
+    lanes_scale(a + b, x, z);
+  } else if (is_zero(y)) {
+    lanes_scale(a, x, z);
+  } else if (is_zero(x)) {
+    lanes_scale(b, y, z);
+  } else {
+    zd = new_values(z);
+    for (sunindextype i = 0; i < n; i++) zd[i] = a * xd[i] + b * yd[i];
+  }
 }
 
 static void lanes_prod(N_Vector x, N_Vector y, N_Vector z) {
   const double *xd = values(x), *yd = values(y);
-  double *zd = values(z);
+  double *zd = new_values(z);
   const sunindextype n = count(z);
   for (sunindextype i = 0; i < n; i++) zd[i] = xd[i] * yd[i];
 }
 
 static void lanes_div(N_Vector x, N_Vector y, N_Vector z) {
   const double *xd = values(x), *yd = values(y);
-  double *zd = values(z);
+  double *zd = new_values(z);
   const sunindextype n = count(z);
   for (sunindextype i = 0; i < n; i++) zd[i] = xd[i] / yd[i];
 }
 
-static void lanes_scale(sunrealtype c, N_Vector x, N_Vector z) {
-  const double *xd = values(x);
-  double *zd = values(z);
-  const sunindextype n = count(z);
-  for (sunindextype i = 0; i < n; i++) zd[i] = c * xd[i];
-}
-
 static void lanes_abs(N_Vector x, N_Vector z) {
   const double *xd = values(x);
-  double *zd = values(z);
+  double *zd = new_values(z);
   const sunindextype n = count(z);
   for (sunindextype i = 0; i < n; i++) zd[i] = fabs(xd[i]);
 }
 
 static void lanes_inv(N_Vector x, N_Vector z) {
   const double *xd = values(x);
-  double *zd = values(z);
+  double *zd = new_values(z);
   const sunindextype n = count(z);
   for (sunindextype i = 0; i < n; i++) zd[i] = 1.0 / xd[i];
 }
 
 static void lanes_add_const(N_Vector x, sunrealtype b, N_Vector z) {
   const double *xd = values(x);
-  double *zd = values(z);
+  double *zd = new_values(z);
   const sunindextype n = count(z);
   for (sunindextype i = 0; i < n; i++) zd[i] = xd[i] + b;
 }
@@ -162,15 +220,15 @@ typedef long long octet_mask __attribute__((vector_size(64), aligned(8), may_ali
 
 /* The largest of the lanes' norms; an error that is not finite is as large as to be rejected. */
 static sunrealtype lanes_wrms_norm(N_Vector x, N_Vector w) {
-  const lane_content *c = x->content;
+  const lane_store *store = store_of(x);
   const double *xd = values(x), *wd = values(w);
-  const size_t lanes = (size_t)c->lanes;
+  const size_t lanes = (size_t)store->lanes;
   octet most = {0.0};
   octet_mask finite = ~(octet_mask){0};
   size_t i = 0;
   for (; i + 8 <= lanes; i += 8) {
     octet sum = {0.0};
-    for (int k = 0; k < c->states; k++) {
+    for (int k = 0; k < store->states; k++) {
       const octet e = *(const octet *)(xd + k * lanes + i) * *(const octet *)(wd + k * lanes + i);
       sum += e * e;
     }
@@ -186,14 +244,14 @@ static sunrealtype lanes_wrms_norm(N_Vector x, N_Vector w) {
   }
   for (; i < lanes; i++) {
     double sum = 0.0;
-    for (int k = 0; k < c->states; k++) {
+    for (int k = 0; k < store->states; k++) {
       const double e = xd[k * lanes + i] * wd[k * lanes + i];
       sum += e * e;
     }
     largest = sum > largest ? sum : largest;
     bad |= !(sum <= DBL_MAX);
   }
-  return bad ? 1.0e30 : sqrt(largest / c->states);
+  return bad ? 1.0e30 : sqrt(largest / store->states);
 }
 
 /* z = sum of c[j] x[j] in one pass, thirty-two entries at a time; ARKODE lets z be x[0]. */
@@ -201,35 +259,65 @@ enum { most_terms = 16 }; /* of one pass: stages of a table and the state */
 
 static int lanes_linear_combination(int terms, sunrealtype *c, N_Vector *x, N_Vector z) {
   const double *xd[most_terms];
-  double *zd = values(z);
+  double factor[most_terms];
   const sunindextype n = count(z);
+  double *zd;
   sunindextype i = 0;
+  int used = 0;
   if (terms > most_terms) return -1;
-  for (int j = 0; j < terms; j++) xd[j] = values(x[j]);
+  for (int j = 0; j < terms; j++) {
+    if (is_zero(x[j])) continue;
+    xd[used] = values(x[j]);
+    factor[used++] = c[j];
+  }
+  zd = new_values(z);
   for (; i + 32 <= n; i += 32) {
     octet sum[4] = {{0.0}};
-    for (int j = 0; j < terms; j++) {
+    for (int j = 0; j < used; j++) {
       const octet *next = (const octet *)(xd[j] + i);
-      for (int k = 0; k < 4; k++) sum[k] += c[j] * next[k];
+      for (int k = 0; k < 4; k++) sum[k] += factor[j] * next[k];
     }
     for (int k = 0; k < 4; k++) ((octet *)(zd + i))[k] = sum[k];
   }
   for (; i < n; i++) {
     double sum = 0.0;
-    for (int j = 0; j < terms; j++) sum += c[j] * xd[j][i];
+    for (int j = 0; j < used; j++) sum += factor[j] * xd[j][i];
     zd[i] = sum;
   }
   return 0;
 }
 
-static N_Vector lanes_new(SUNContext context, int lanes, int states) {
+/* Room for one vector more, in use by `users`. NULL: there is no memory. */
+static numbers *new_numbers(const lane_store *store, int users) {
+  const size_t bytes = ((size_t)store->lanes * store->states * sizeof(double) + 63) / 64 * 64;
+  numbers *fresh = malloc(sizeof *fresh);
+  double *data = aligned_alloc(64, bytes);
+  if (fresh == NULL || data == NULL) {
+    free(fresh);
+    free(data);
+    return NULL;
+  }
+  memset(data, 0, bytes);
+  *fresh = (numbers){users, data, NULL};
+  return fresh;
+}
+
+static N_Vector lanes_new(SUNContext context, lane_store *store) {
   N_Vector v = N_VNewEmpty(context);
-  if (v == NULL) return NULL;
+  lane_content *c = malloc(sizeof *c);
+  numbers *fresh = new_numbers(store, 1);
+  if (v == NULL || c == NULL || fresh == NULL) {
+    drop_numbers(fresh);
+    free(c);
+    if (v != NULL) N_VFreeEmpty(v);
+    return NULL;
+  }
+  *c = (lane_content){store, fresh};
+  v->content = c;
   v->ops->nvgetvectorid = lanes_id;
   v->ops->nvclone = lanes_clone;
   v->ops->nvdestroy = lanes_destroy;
   v->ops->nvspace = lanes_space;
-  v->ops->nvgetarraypointer = values;
   v->ops->nvgetlength = count;
   v->ops->nvlinearsum = lanes_linear_sum;
   v->ops->nvconst = lanes_const;
@@ -243,20 +331,26 @@ static N_Vector lanes_new(SUNContext context, int lanes, int states) {
   v->ops->nvwrmsnorm = lanes_wrms_norm;
   v->ops->nvmin = lanes_min;
   v->ops->nvlinearcombination = lanes_linear_combination;
-  lane_content *c = malloc(sizeof *c);
-  const size_t bytes = ((size_t)lanes * states * sizeof(double) + 63) / 64 * 64;
-  double *data = aligned_alloc(64, bytes);
-  if (c == NULL || data == NULL) {
-    free(c);
-    free(data);
-    N_VFreeEmpty(v);
-    return NULL;
-  }
-  memset(data, 0, bytes);
-  *c = (lane_content){data, lanes, states};
-  v->content = c;
   return v;
 }
+
+struct rv_arkode {
+  lane_store store;
+  double first_step; /* of the start and of each corner; 0: all steps are of one length */
+  int at_corner;     /* the last step ended at a stop time */
+  rv_rhs_fn rhs;
+  rv_stage_fn stage;
+  rv_weight_fn weight;
+  void *data;
+  SUNContext context;
+  void *memory;
+  N_Vector y;
+  SUNNonlinearSolver solver;
+#if SUNDIALS_NUMBER >= 701
+  SUNAdaptController controller;
+#endif
+  char message[256];
+};
 
 /* ---- Stage solver --------------------------------------------------------------------------- */
 
@@ -285,7 +379,7 @@ static int stage_solve(SUNNonlinearSolver solver, N_Vector guess, N_Vector corre
   void *data;
   if (ARK(GetNonlinearSystemData)(self->memory, &t, &predicted, &stage, &rhs, &gamma, &known, &data) != 0)
     return SUN_NLS_MEM_NULL;
-  const int flag = self->stage(t, gamma, values(predicted), values(known), values(correction), self->data);
+  const int flag = self->stage(t, gamma, values(predicted), values(known), new_values(correction), self->data);
   if (flag > 0) return SUN_NLS_CONV_RECVR;
   return flag < 0 ? SUN_NLS_EXT_FAIL : 0;
 }
@@ -304,12 +398,12 @@ static SUNNonlinearSolver stage_solver_new(rv_arkode *self) {
 
 static int call_rhs(sunrealtype t, N_Vector y, N_Vector ydot, void *data) {
   rv_arkode *self = data;
-  return self->rhs(t, values(y), values(ydot), self->data);
+  return self->rhs(t, values(y), new_values(ydot), self->data);
 }
 
 static int call_weight(N_Vector y, N_Vector weight, void *data) {
   rv_arkode *self = data;
-  return self->weight(values(y), values(weight), self->data);
+  return self->weight(values(y), new_values(weight), self->data);
 }
 
 /* SUNDIALS would print; keep its sentence for the caller instead. */
@@ -379,8 +473,9 @@ static int configure(rv_arkode *self, const char *table) {
 /* A state to or from its halves. */
 static void put_state(rv_arkode *self, const double *q, const double *v) {
   const size_t half = (size_t)count(self->y) / 2;
-  memcpy(values(self->y), q, half * sizeof(double));
-  memcpy(values(self->y) + half, v, half * sizeof(double));
+  double *y = new_values(self->y);
+  memcpy(y, q, half * sizeof(double));
+  memcpy(y + half, v, half * sizeof(double));
 }
 
 static void get_state(rv_arkode *self, double *q, double *v) {
@@ -394,7 +489,8 @@ static int build(rv_arkode *self, double t0, const double *q0, const double *v0,
     snprintf(self->message, sizeof self->message, "SUNContext_Create failed");
     return -1;
   }
-  self->y = lanes_new(self->context, self->lanes, self->states);
+  self->store.zero = new_numbers(&self->store, 1);
+  if (self->store.zero != NULL) self->y = lanes_new(self->context, &self->store);
   self->solver = stage_solver_new(self);
   if (self->y != NULL) {
     put_state(self, q0, v0);
@@ -405,7 +501,7 @@ static int build(rv_arkode *self, double t0, const double *q0, const double *v0,
   if (self->controller == NULL) self->memory = NULL;
 #endif
   if (self->solver == NULL || self->memory == NULL) {
-    snprintf(self->message, sizeof self->message, "no memory for an integrator of %d lanes", self->lanes);
+    snprintf(self->message, sizeof self->message, "no memory for an integrator of %d lanes", self->store.lanes);
     return -1;
   }
   return configure(self, table);
@@ -416,8 +512,8 @@ int rv_arkode_new(int lanes, int states, double t0, const double *q0, const doub
   rv_arkode *self = calloc(1, sizeof *self);
   *out = self;
   if (self == NULL) return -1;
-  self->lanes = lanes;
-  self->states = states;
+  self->store.lanes = lanes;
+  self->store.states = states;
   self->first_step = first_step;
   self->rhs = rhs;
   self->stage = stage;
@@ -473,14 +569,15 @@ int rv_arkode_fix_step(rv_arkode *self, double step) {
 
 int rv_arkode_worst_lane(rv_arkode *self) {
   N_Vector error = lanes_clone(self->y), weight = lanes_clone(self->y);
+  const int lanes = self->store.lanes, states = self->store.states;
   int worst = 0;
   if (error != NULL && weight != NULL && ARK(GetEstLocalErrors)(self->memory, error) == 0 &&
       ARK(GetErrWeights)(self->memory, weight) == 0) {
     const double *e = values(error), *w = values(weight);
     double largest = -1.0;
-    for (int i = 0; i < self->lanes; i++) {
+    for (int i = 0; i < lanes; i++) {
       double sum = 0.0;
-      for (int k = 0; k < self->states; k++) sum += fabs(e[k * self->lanes + i] * w[k * self->lanes + i]);
+      for (int k = 0; k < states; k++) sum += fabs(e[k * lanes + i] * w[k * lanes + i]);
       if (!(sum <= largest)) {
         worst = i;
         largest = isnan(sum) ? HUGE_VAL : sum;
@@ -508,6 +605,7 @@ void rv_arkode_free(rv_arkode **pointer) {
 #endif
   if (self->solver != NULL) SUNNonlinSolFreeEmpty(self->solver);
   lanes_destroy(self->y);
+  drop_numbers(self->store.zero);
   if (self->context != NULL) SUNContext_Free(&self->context);
   free(self);
 }
