@@ -23,19 +23,26 @@ fmi3Status fmi3SetDebugLogging(fmi3Instance pointer, fmi3Boolean on, size_t n, c
   return fmi3OK;
 }
 
-fmi3Status fmi3EnterInitializationMode(fmi3Instance pointer, fmi3Boolean has_tolerance, fmi3Float64 tolerance,
-                                       fmi3Float64 start, fmi3Boolean has_stop, fmi3Float64 stop) {
-  instance *self = rv_fmu_enter(pointer, __func__, instantiated);
-  if (self == NULL) return fmi3Error;
-  if (!isfinite(start)) return rv_fmu_fail(self, __func__, "startTime is not a finite number");
-  if (has_stop && !(stop > start)) return rv_fmu_fail(self, __func__, "stopTime %g s is not after startTime %g s", stop, start);
+fmi3Status rv_fmu_set_up(instance *self, const char *function, bool has_tolerance, double tolerance, double start,
+                         bool has_stop, double stop) {
+  if (!isfinite(start)) return rv_fmu_fail(self, function, "startTime is not a finite number");
+  if (has_stop && !(stop > start)) return rv_fmu_fail(self, function, "stopTime %g s is not after startTime %g s", stop, start);
   if (has_tolerance && rv_valve_set_real(self->valve, "solver.rtol", tolerance) != RV_OK)
-    return rv_fmu_fail_valve(self, __func__);
+    return rv_fmu_fail_valve(self, function);
   self->start = start;
   self->time = start;
   self->stop = has_stop ? stop : INFINITY;
-  self->mode = initializing;
   return fmi3OK;
+}
+
+fmi3Status fmi3EnterInitializationMode(fmi3Instance pointer, fmi3Boolean has_tolerance, fmi3Float64 tolerance,
+                                       fmi3Float64 start, fmi3Boolean has_stop, fmi3Float64 stop) {
+  instance *self = rv_fmu_enter(pointer, __func__, instantiated);
+  fmi3Status status;
+  if (self == NULL) return fmi3Error;
+  status = rv_fmu_set_up(self, __func__, has_tolerance, tolerance, start, has_stop, stop);
+  if (status == fmi3OK) self->mode = initializing;
+  return status;
 }
 
 fmi3Status fmi3ExitInitializationMode(fmi3Instance pointer) {
@@ -58,7 +65,9 @@ fmi3Status fmi3Reset(fmi3Instance pointer) {
   instance *self = rv_fmu_enter(pointer, __func__, anywhere);
   if (self == NULL || !rv_fmu_open_valve(self, __func__)) return fmi3Error;
   for (int i = 0; i < n_inputs; i++) self->input[i] = 0;
+  self->start = 0;
   self->time = 0;
+  self->stop = INFINITY;
   self->mode = instantiated;
   return fmi3OK;
 }

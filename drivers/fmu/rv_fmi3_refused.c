@@ -4,14 +4,13 @@
 
 #pragma GCC diagnostic ignored "-Wunused-parameter" /* no argument is looked at */
 
-static fmi3Status refuse(fmi3Instance pointer, const char *function) {
+fmi3Status rv_fmu_refuse(fmi3Instance pointer, const char *function) {
   instance *self = rv_fmu_enter(pointer, function, anywhere);
   if (self == NULL) return fmi3Error;
   return rv_fmu_fail(self, function, "this FMU does co-simulation, without events; it has no such thing");
 }
 
-/* Nothing is asked for: that is no error. */
-static fmi3Status no_variables(fmi3Instance pointer, const char *function, size_t n) {
+fmi3Status rv_fmu_no_variables(fmi3Instance pointer, const char *function, size_t n) {
   instance *self = rv_fmu_enter(pointer, function, anywhere);
   if (self == NULL) return fmi3Error;
   return n == 0 ? fmi3OK : rv_fmu_fail(self, function, "there is no variable of this type");
@@ -41,10 +40,10 @@ fmi3Instance fmi3InstantiateScheduledExecution(fmi3String name, fmi3String token
 #define VARIABLES self, const fmi3ValueReference reference[], size_t n
 #define NO_TYPE(Type)                                                                            \
   fmi3Status fmi3Get##Type(fmi3Instance VARIABLES, fmi3##Type value[], size_t n_values) {        \
-    return no_variables(self, __func__, n);                                                      \
+    return rv_fmu_no_variables(self, __func__, n);                                                      \
   }                                                                                              \
   fmi3Status fmi3Set##Type(fmi3Instance VARIABLES, const fmi3##Type value[], size_t n_values) {  \
-    return no_variables(self, __func__, n);                                                      \
+    return rv_fmu_no_variables(self, __func__, n);                                                      \
   }
 NO_TYPE(Float32)
 NO_TYPE(Int8)
@@ -57,23 +56,23 @@ NO_TYPE(Boolean)
 NO_TYPE(String)
 
 fmi3Status fmi3GetBinary(fmi3Instance VARIABLES, size_t size[], fmi3Binary value[], size_t n_values) {
-  return no_variables(self, __func__, n);
+  return rv_fmu_no_variables(self, __func__, n);
 }
 fmi3Status fmi3SetBinary(fmi3Instance VARIABLES, const size_t size[], const fmi3Binary value[], size_t n_values) {
-  return no_variables(self, __func__, n);
+  return rv_fmu_no_variables(self, __func__, n);
 }
 fmi3Status fmi3GetClock(fmi3Instance VARIABLES, fmi3Clock value[]) {
-  return no_variables(self, __func__, n);
+  return rv_fmu_no_variables(self, __func__, n);
 }
 fmi3Status fmi3SetClock(fmi3Instance VARIABLES, const fmi3Clock value[]) {
-  return no_variables(self, __func__, n);
+  return rv_fmu_no_variables(self, __func__, n);
 }
 
 /* Everything else: a name, and its arguments */
 #define REFUSE(function, ...) \
-  fmi3Status function(fmi3Instance self, __VA_ARGS__) { return refuse(self, __func__); }
+  fmi3Status function(fmi3Instance self, __VA_ARGS__) { return rv_fmu_refuse(self, __func__); }
 #define REFUSE_PLAIN(function) \
-  fmi3Status function(fmi3Instance self) { return refuse(self, __func__); }
+  fmi3Status function(fmi3Instance self) { return rv_fmu_refuse(self, __func__); }
 REFUSE_PLAIN(fmi3EnterEventMode)
 REFUSE(fmi3GetNumberOfVariableDependencies, fmi3ValueReference a, size_t *b)
 REFUSE(fmi3GetVariableDependencies, fmi3ValueReference a, size_t b[], fmi3ValueReference c[], size_t d[],

@@ -7,12 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Inputs may be set until the end, parameters before the first step. */
-enum { before_steps = instantiated | initializing };
-
-/* An instance, and arrays that fit each other. NULL: it has been told what is wrong. */
-static instance *enter(fmi3Instance pointer, const char *function, int allowed, const fmi3ValueReference *reference,
-                       size_t n, const void *value, size_t n_values) {
+instance *rv_fmu_enter_values(fmi3Instance pointer, const char *function, int allowed, const fmi3ValueReference *reference,
+                              size_t n, const void *value, size_t n_values) {
   instance *self = rv_fmu_enter(pointer, function, allowed);
   if (self == NULL) return NULL;
   if (n > 0 && (reference == NULL || value == NULL))
@@ -64,7 +60,7 @@ static fmi3Status get_real(instance *self, const char *function, fmi3ValueRefere
 
 fmi3Status fmi3GetFloat64(fmi3Instance pointer, const fmi3ValueReference reference[], size_t n, fmi3Float64 value[],
                           size_t n_values) {
-  instance *self = enter(pointer, __func__, anywhere, reference, n, value, n_values);
+  instance *self = rv_fmu_enter_values(pointer, __func__, anywhere, reference, n, value, n_values);
   fmi3Status status = self == NULL ? fmi3Error : fmi3OK;
   for (size_t i = 0; i < n && status <= fmi3Warning; i++) status = get_real(self, __func__, reference[i], &value[i]);
   return status;
@@ -80,7 +76,7 @@ static fmi3Status get_word(instance *self, const char *function, fmi3ValueRefere
 
 fmi3Status fmi3GetInt32(fmi3Instance pointer, const fmi3ValueReference reference[], size_t n, fmi3Int32 value[],
                         size_t n_values) {
-  instance *self = enter(pointer, __func__, anywhere, reference, n, value, n_values);
+  instance *self = rv_fmu_enter_values(pointer, __func__, anywhere, reference, n, value, n_values);
   fmi3Status status = self == NULL ? fmi3Error : fmi3OK;
   char word[longest_word];
   parameter found;
@@ -93,7 +89,7 @@ fmi3Status fmi3GetInt32(fmi3Instance pointer, const fmi3ValueReference reference
 
 fmi3Status fmi3GetInt64(fmi3Instance pointer, const fmi3ValueReference reference[], size_t n, fmi3Int64 value[],
                         size_t n_values) {
-  instance *self = enter(pointer, __func__, anywhere, reference, n, value, n_values);
+  instance *self = rv_fmu_enter_values(pointer, __func__, anywhere, reference, n, value, n_values);
   fmi3Status status = self == NULL ? fmi3Error : fmi3OK;
   char word[longest_word];
   parameter found;
@@ -135,37 +131,36 @@ static fmi3Status set_real(instance *self, const char *function, fmi3ValueRefere
   return settle(self, function, rv_valve_set_real(self->valve, found.name, value));
 }
 
-/* The worse of two. */
-static fmi3Status worse(fmi3Status a, fmi3Status b) {
+fmi3Status rv_fmu_worse(fmi3Status a, fmi3Status b) {
   return a > b ? a : b;
 }
 
 fmi3Status fmi3SetFloat64(fmi3Instance pointer, const fmi3ValueReference reference[], size_t n,
                           const fmi3Float64 value[], size_t n_values) {
-  instance *self = enter(pointer, __func__, before_steps | stepping, reference, n, value, n_values);
+  instance *self = rv_fmu_enter_values(pointer, __func__, before_end, reference, n, value, n_values);
   fmi3Status status = self == NULL ? fmi3Error : fmi3OK;
   for (size_t i = 0; i < n && status <= fmi3Warning; i++)
-    status = worse(status, set_real(self, __func__, reference[i], value[i]));
+    status = rv_fmu_worse(status, set_real(self, __func__, reference[i], value[i]));
   return status;
 }
 
 fmi3Status fmi3SetInt32(fmi3Instance pointer, const fmi3ValueReference reference[], size_t n, const fmi3Int32 value[],
                         size_t n_values) {
-  instance *self = enter(pointer, __func__, before_steps | stepping, reference, n, value, n_values);
+  instance *self = rv_fmu_enter_values(pointer, __func__, before_end, reference, n, value, n_values);
   fmi3Status status = self == NULL ? fmi3Error : fmi3OK;
   char word[longest_word];
   parameter found;
   for (size_t i = 0; i < n && status <= fmi3Warning; i++) {
     if (!is_open(self, __func__, reference[i], RV_INTEGER, &found)) return fmi3Error;
     snprintf(word, sizeof word, "%" PRId32, value[i]);
-    status = worse(status, settle(self, __func__, rv_valve_set_text(self->valve, found.name, word)));
+    status = rv_fmu_worse(status, settle(self, __func__, rv_valve_set_text(self->valve, found.name, word)));
   }
   return status;
 }
 
 fmi3Status fmi3SetInt64(fmi3Instance pointer, const fmi3ValueReference reference[], size_t n, const fmi3Int64 value[],
                         size_t n_values) {
-  instance *self = enter(pointer, __func__, before_steps | stepping, reference, n, value, n_values);
+  instance *self = rv_fmu_enter_values(pointer, __func__, before_end, reference, n, value, n_values);
   fmi3Status status = self == NULL ? fmi3Error : fmi3OK;
   parameter found;
   for (size_t i = 0; i < n && status <= fmi3Warning; i++) {
@@ -174,7 +169,7 @@ fmi3Status fmi3SetInt64(fmi3Instance pointer, const fmi3ValueReference reference
     if (value[i] > 0 && value[i] < INT32_MAX) rv_fmu_choice(found.key, (int)value[i], word, sizeof word);
     if (word[0] == '\0')
       return rv_fmu_fail(self, __func__, "%s has no choice number %" PRId64, found.name, value[i]);
-    status = worse(status, settle(self, __func__, rv_valve_set_text(self->valve, found.name, word)));
+    status = rv_fmu_worse(status, settle(self, __func__, rv_valve_set_text(self->valve, found.name, word)));
   }
   return status;
 }

@@ -20,28 +20,34 @@ static bool is_instance(const void *pointer) {
   return self != NULL;
 }
 
-/* FMI takes #12# for the name of variable 12, and ## for #. */
-static void tell(instance *self, fmi3Status status, const char *category, const char *message) {
-  char text[2 * 4096];
+/* FMI takes #12# for the name of variable 12, and ## for #. FMI 2.0 makes a format of it, and tells the name itself. */
+static void tell(instance *self, fmi3Status status, const char *category, const char *function, const char *message) {
+  const bool is_2 = self->log2 != NULL;
+  char line[4096], text[2 * sizeof line];
   size_t n = 0;
-  if (self->log == NULL) return;
-  for (const char *c = message; *c != '\0' && n < sizeof text - 3; c++) {
+  if (is_2)
+    snprintf(line, sizeof line, "%s: %s", self->called, message);
+  else
+    snprintf(line, sizeof line, "%s: %s: %s", self->name, function, message);
+  for (const char *c = line; *c != '\0' && n < sizeof text - 3; c++) {
     text[n++] = *c;
-    if (*c == '#') text[n++] = '#';
+    if (*c == '#' || (is_2 && *c == '%')) text[n++] = *c;
   }
   while (n > 0 && text[n - 1] == '\n') n--;
   text[n] = '\0';
-  self->log(self->environment, status, category, text);
+  if (is_2)
+    self->log2(self->environment, self->name, (fmi2Status)status, category, text);
+  else if (self->log != NULL)
+    self->log(self->environment, status, category, text);
 }
 
 fmi3Status rv_fmu_fail(instance *self, const char *function, const char *format, ...) {
   char message[4096];
-  int n = snprintf(message, sizeof message, "%s: %s: ", self->name, function);
   va_list list;
   va_start(list, format);
-  if (n >= 0 && (size_t)n < sizeof message) vsnprintf(message + n, sizeof message - (size_t)n, format, list);
+  vsnprintf(message, sizeof message, format, list);
   va_end(list);
-  tell(self, fmi3Error, "logStatusError", message);
+  tell(self, fmi3Error, "logStatusError", function, message);
   self->mode = terminated;
   return fmi3Error;
 }
@@ -52,13 +58,15 @@ fmi3Status rv_fmu_fail_valve(instance *self, const char *function) {
   return rv_fmu_fail(self, function, "%s", message);
 }
 
+fmi3Status rv_fmu_warn(instance *self, fmi3Status status, const char *function, const char *message) {
+  if (self->tells_warnings) tell(self, status, "logStatusWarning", function, message);
+  return status;
+}
+
 fmi3Status rv_fmu_warn_valve(instance *self, const char *function) {
-  char text[2048], message[4096];
-  rv_valve_message(self->valve, text, sizeof text);
-  if (text[0] == '\0') return fmi3OK;
-  snprintf(message, sizeof message, "%s: %s: %s", self->name, function, text);
-  if (self->tells_warnings) tell(self, fmi3Warning, "logStatusWarning", message);
-  return fmi3Warning;
+  char message[2048];
+  rv_valve_message(self->valve, message, sizeof message);
+  return message[0] == '\0' ? fmi3OK : rv_fmu_warn(self, fmi3Warning, function, message);
 }
 
 instance *rv_fmu_enter(fmi3Instance pointer, const char *function, int allowed) {
@@ -178,7 +186,7 @@ static bool is_ours(instance *self, const char *function, const char *token) {
   self->settings = rv_fmu_hash(bytes, size);
   rv_fmu_token(bytes, size, own);
   if (token != NULL && strcmp(token, own) == 0) return true;
-  rv_fmu_fail(self, function, "the instantiation token is %s, that of this FMU is %s", token == NULL ? "NULL" : token, own);
+  rv_fmu_fail(self, function, "the instantiation token (guid) is %s, that of this FMU is %s", token == NULL ? "NULL" : token, own);
   return false;
 }
 
@@ -194,29 +202,17 @@ static void discard(instance *self) {
   free(self);
 }
 
-fmi3Instance fmi3InstantiateCoSimulation(fmi3String name, fmi3String token, fmi3String resources, fmi3Boolean visible,
-                                         fmi3Boolean logging, fmi3Boolean event_mode, fmi3Boolean early_return,
-                                         const fmi3ValueReference required[], size_t n_required,
-                                         fmi3InstanceEnvironment environment, fmi3LogMessageCallback log,
-                                         fmi3IntermediateUpdateCallback update) {
-  static const char function[] = "fmi3InstantiateCoSimulation";
-  instance *self = calloc(1, sizeof *self);
-  (void)visible, (void)early_return, (void)required, (void)update;
+instance *rv_fmu_new(const instance *given, const char *function, const char *token, const char *resources) {
+  instance *self = malloc(sizeof *self);
   if (self == NULL) return NULL;
-  self->environment = environment;
-  self->log = log;
-  self->tells_warnings = logging;
-  self->name = strdup(name == NULL ? "" : name);
+  *self = *given;
+  self->name = strdup(given->name);
   self->deck = resources == NULL || self->name == NULL ? NULL : deck_in(resources);
   self->stop = INFINITY;
-  if (self->name == NULL || name == NULL || name[strspn(name, " \t\n")] == '\0')
+  if (self->name == NULL || self->name[strspn(self->name, " \t\n")] == '\0')
     rv_fmu_fail(self, function, "the instance needs a name");
   else if (self->deck == NULL)
     rv_fmu_fail(self, function, "the path of the FMU's resources is missing");
-  else if (event_mode)
-    rv_fmu_fail(self, function, "this FMU has no event mode");
-  else if (n_required > 0)
-    rv_fmu_fail(self, function, "this FMU has no intermediate update");
   else if (is_ours(self, function, token) && rv_fmu_open_valve(self, function)) {
     rv_fmu_warn_valve(self, function);
     self->mode = instantiated;
@@ -227,6 +223,23 @@ fmi3Instance fmi3InstantiateCoSimulation(fmi3String name, fmi3String token, fmi3
     return self;
   }
   discard(self);
+  return NULL;
+}
+
+fmi3Instance fmi3InstantiateCoSimulation(fmi3String name, fmi3String token, fmi3String resources, fmi3Boolean visible,
+                                         fmi3Boolean logging, fmi3Boolean event_mode, fmi3Boolean early_return,
+                                         const fmi3ValueReference required[], size_t n_required,
+                                         fmi3InstanceEnvironment environment, fmi3LogMessageCallback log,
+                                         fmi3IntermediateUpdateCallback update) {
+  instance given = {.name = name == NULL ? (char *)"" : (char *)name, .environment = environment, .log = log,
+                    .tells_warnings = logging};
+  (void)visible, (void)early_return, (void)required, (void)update;
+  if (event_mode)
+    rv_fmu_fail(&given, __func__, "this FMU has no event mode");
+  else if (n_required > 0)
+    rv_fmu_fail(&given, __func__, "this FMU has no intermediate update");
+  else
+    return rv_fmu_new(&given, __func__, token, resources);
   return NULL;
 }
 

@@ -12,7 +12,7 @@ contains
       type(arguments_type), intent(in) :: arguments
 
       call complain("cannot pack '"//arguments%operand//"': this program was built without FMUs (RV_WITH_FMU, which needs" &
-         & //" libzip and the header files of FMI 3.0)")
+         & //" libzip and the header files of FMI)")
       status = exit_bad
    end function fmu_command
 
