@@ -32,7 +32,7 @@ int rv_fmu_folder(char *path, size_t size) {
   return -1;
 }
 
-/* As FMI names it. */
+/* As FMI 3.0 names it. */
 void rv_fmu_platform(char *name, size_t size) {
   snprintf(name, size, "%s", RV_FMU_PLATFORM);
 }

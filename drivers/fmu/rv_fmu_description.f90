@@ -2,9 +2,10 @@
 module rv_fmu_description
    use, intrinsic :: ieee_arithmetic, only : ieee_is_nan
    use rv_cases, only : deck_type
+   use rv_fmu_elements, only : attribute, choices_element, unknowns_elements, variable_element
    use rv_fmu_variables, only : first_input, first_output, first_parameter, inputs, is_parameter, output_count, outputs, &
       & variable_type
-   use rv_keys, only : choice_count, choice_key, choice_name, default_load, from_si, full_name, integer_key, &
+   use rv_keys, only : choice_key, default_load, from_si, full_name, integer_key, real_key, &
       & key_hydro_load, key_pressure_event_ms, key_pressure_file, key_pressure_kind, key_reed_action_area_mm2, &
       & key_reed_hole_diameter_mm, key_run_model, key_run_t_end_ms, keys, kind_trace, load_by_model, n_keys, text_key, value_text
    use rv_kinds, only : i8, wp
@@ -36,9 +37,11 @@ module rv_fmu_description
 
 contains
 
-   !> modelDescription.xml of FMI 3.0 for the one case of a deck.
-   subroutine describe(deck, token, text)
+   !> modelDescription.xml for the one case of a deck. FMI 2.0 does not ask for time as a variable, and FMI Library, which
+   !> many importers read it with, takes that for an error.
+   subroutine describe(deck, fmi, token, text)
       type(deck_type), intent(in) :: deck
+      integer, intent(in) :: fmi              !! version of FMI: 2 or 3
       character(len=*), intent(in) :: token   !! that the library of this FMU wants to see
       character(len=:), allocatable, intent(out) :: text
       type(text_builder) :: build
@@ -48,44 +51,42 @@ contains
       call values_of(deck, value)
       model = nint(value(key_run_model))
       kind = nint(value(key_pressure_kind))
-      call add_head(build, deck, token, value)
+      call add_head(build, deck, fmi, token, value)
       call build%line("  <ModelVariables>")
-      call build%line('    <Float64 name="time" valueReference="0" causality="independent" variability="continuous"' &
-         & //' unit="s" description="simulation time"/>')
+      if (fmi == 3) call add_variable(build, fmi, variable_type("time", "s", "simulation time"), 0, "independent", "")
       do i = 1, size(inputs)
-         call add_variable(build, inputs(i), first_input + i - 1, 'input" start="0')
+         call add_variable(build, fmi, inputs(i), first_input + i - 1, "input", attribute("start", "0"))
       end do
       do i = 1, output_count(model)
-         if (outputs(i)%name /= "") call add_variable(build, outputs(i), first_output + i - 1, "output")
+         if (outputs(i)%name /= "") call add_variable(build, fmi, outputs(i), first_output + i - 1, "output", "")
       end do
       do i = 1, n_keys
-         if (is_parameter(i, model, kind)) call add_parameter(build, i, value(i))
+         if (is_parameter(i, model, kind)) call add_parameter(build, fmi, i, value(i))
       end do
       call build%line("  </ModelVariables>")
-      call build%line("  <ModelStructure>")
-      call add_outputs(build, "Output", model)
-      call add_outputs(build, "InitialUnknown", model)
-      call build%line("  </ModelStructure>")
+      call add_structure(build, fmi, model)
       call build%line("</fmiModelDescription>")
       text = build%text()
    end subroutine describe
 
-   subroutine add_head(build, deck, token, value)
+   subroutine add_head(build, deck, fmi, token, value)
       type(text_builder), intent(inout) :: build
       type(deck_type), intent(in) :: deck
+      integer, intent(in) :: fmi
       character(len=*), intent(in) :: token
       real(wp), intent(in) :: value(n_keys)
       character(len=*), parameter :: nl = new_line("a")
 
       call build%line('<?xml version="1.0" encoding="UTF-8"?>')
-      call build%line('<fmiModelDescription fmiVersion="3.0" modelName="'//escaped(deck%name)//'"' &
-         & //nl//'  instantiationToken="'//token//'"' &
-         & //nl//'  description="'//escaped(description_of(deck, value))//'"' &
-         & //nl//'  generationTool="reedvalve '//code_version//'" variableNamingConvention="structured">')
-      call build%line('  <CoSimulation modelIdentifier="'//library_name//'" canHandleVariableCommunicationStepSize="true"' &
-         & //nl//'    canGetAndSetFMUState="true" canSerializeFMUState="true"/>')
+      call build%line("<fmiModelDescription"//attribute("fmiVersion", to_text(fmi)//".0")//attribute("modelName", deck%name) &
+         & //nl//" "//attribute(trim(merge("guid              ", "instantiationToken", fmi == 2)), token) &
+         & //nl//" "//attribute("description", description_of(deck, value)) &
+         & //nl//" "//attribute("generationTool", "reedvalve "//code_version) &
+         & //attribute("variableNamingConvention", "structured")//">")
+      call build%line("  <CoSimulation"//attribute("modelIdentifier", library_name) &
+         & //attribute("canHandleVariableCommunicationStepSize", "true")//nl//"   "//abilities(fmi)//"/>")
       call add_units(build)
-      call add_choices(build, nint(value(key_run_model)), nint(value(key_pressure_kind)))
+      call add_choices(build, fmi, nint(value(key_run_model)), nint(value(key_pressure_kind)))
       call build%line("  <LogCategories>")
       call build%line('    <Category name="logStatusWarning" description="what is odd but can be computed with"/>')
       call build%line('    <Category name="logStatusError" description="why a call failed; told without being asked for"/>')
@@ -93,6 +94,19 @@ contains
       call build%line('  <DefaultExperiment startTime="0" stopTime="'//to_text(value(key_run_t_end_ms))//'" stepSize="' &
          & //to_text(value(key_run_t_end_ms)/default_steps)//'"/>')
    end subroutine add_head
+
+   !> What else the library can. FMI 3.0 has no word for derivatives of inputs, and none for memory of its own.
+   function abilities(fmi) result(text)
+      integer, intent(in) :: fmi
+      character(len=:), allocatable :: text
+
+      if (fmi == 2) then
+         text = attribute("canInterpolateInputs", "true")//attribute("canNotUseMemoryManagementFunctions", "true") &
+            & //attribute("canGetAndSetFMUstate", "true")//attribute("canSerializeFMUstate", "true")
+      else
+         text = attribute("canGetAndSetFMUState", "true")//attribute("canSerializeFMUState", "true")
+      end if
+   end function abilities
 
    function description_of(deck, value) result(text)
       type(deck_type), intent(in) :: deck
@@ -128,72 +142,72 @@ contains
    end function power
 
    !> The words of every key that takes one of some words.
-   subroutine add_choices(build, model, kind)
+   subroutine add_choices(build, fmi, model, kind)
       type(text_builder), intent(inout) :: build
-      integer, intent(in) :: model, kind
-      integer :: key, i
+      integer, intent(in) :: fmi, model, kind
+      integer :: key
 
       call build%line("  <TypeDefinitions>")
       do key = 1, n_keys
          if (.not. is_parameter(key, model, kind) .or. keys(key)%kind /= choice_key) cycle
-         call build%line('    <EnumerationType name="'//full_name(key)//'">')
-         do i = 1, choice_count(key)
-            call build%line('      <Item name="'//choice_name(key, i)//'" value="'//to_text(i)//'"/>')
-         end do
-         call build%line("    </EnumerationType>")
+         call build%line("    "//choices_element(fmi, key))
       end do
       call build%line("  </TypeDefinitions>")
    end subroutine add_choices
 
-   subroutine add_variable(build, variable, reference, causality)
+   subroutine add_variable(build, fmi, variable, reference, causality, start)
       type(text_builder), intent(inout) :: build
       type(variable_type), intent(in) :: variable
-      integer, intent(in) :: reference
-      character(len=*), intent(in) :: causality   !! and further attributes behind it, but for the last quote
+      integer, intent(in) :: fmi, reference
+      character(len=*), intent(in) :: causality
+      character(len=*), intent(in) :: start   !! attribute, or nothing
 
-      call build%line('    <Float64 name="'//trim(variable%name)//'" valueReference="'//to_text(reference)//'" causality="' &
-         & //causality//'" variability="continuous" unit="'//trim(variable%unit)//'" description="' &
-         & //escaped(trim(variable%meaning))//'"/>')
+      call build%line("    "//variable_element(fmi, real_key, attribute("name", trim(variable%name)) &
+         & //attribute("valueReference", to_text(reference))//attribute("causality", causality) &
+         & //attribute("variability", "continuous")//attribute("description", trim(variable%meaning)), &
+         & attribute("unit", trim(variable%unit))//start))
    end subroutine add_variable
 
    !> A key, in its own unit. Of the pressures of a square wave only their size matters: the caller brings pressures.
-   subroutine add_parameter(build, key, value)
+   subroutine add_parameter(build, fmi, key, value)
       type(text_builder), intent(inout) :: build
-      integer, intent(in) :: key
+      integer, intent(in) :: fmi, key
       real(wp), intent(in) :: value   !! SI
-      character(len=:), allocatable :: line, kind, meaning
+      character(len=:), allocatable :: range, meaning
 
-      kind = "Float64"
-      if (keys(key)%kind == integer_key) kind = "Int32"
-      if (keys(key)%kind == choice_key) kind = "Enumeration"
-      line = "    <"//kind//' name="'//full_name(key)//'" valueReference="'//to_text(first_parameter + key - 1) &
-         & //'" causality="parameter" variability="fixed"'
       select case (keys(key)%kind)
       case (choice_key)
-         line = line//' declaredType="'//full_name(key)//'" start="'//to_text(nint(value))//'"'
+         range = attribute("declaredType", full_name(key))//attribute("start", to_text(nint(value)))
       case (integer_key)
-         line = line//' min="'//to_text(nint(keys(key)%lowest))//'" max="'//to_text(nint(keys(key)%highest))//'" start="' &
-            & //to_text(nint(value))//'"'
+         range = attribute("min", to_text(nint(keys(key)%lowest)))//attribute("max", to_text(nint(keys(key)%highest))) &
+            & //attribute("start", to_text(nint(value)))
       case default
-         if (keys(key)%unit /= "") line = line//' unit="'//trim(keys(key)%unit)//'"'
-         line = line//' min="'//to_text(keys(key)%lowest)//'" max="'//to_text(keys(key)%highest)//'" start="' &
-            & //to_text(from_si(key, value))//'"'
+         range = attribute("min", to_text(keys(key)%lowest))//attribute("max", to_text(keys(key)%highest)) &
+            & //attribute("start", to_text(from_si(key, value)))
+         if (keys(key)%unit /= "") range = attribute("unit", trim(keys(key)%unit))//range
       end select
       meaning = trim(keys(key)%help)
       if (keys(key)%group == "pressure") meaning = "pressure to be expected at most, which the tolerance is relative to"
-      call build%line(line//' description="'//escaped(meaning)//'"/>')
+      call build%line("    "//variable_element(fmi, keys(key)%kind, attribute("name", full_name(key)) &
+         & //attribute("valueReference", to_text(first_parameter + key - 1))//attribute("causality", "parameter") &
+         & //attribute("variability", "fixed")//attribute("description", meaning), range))
    end subroutine add_parameter
 
-   subroutine add_outputs(build, element, model)
+   !> Every output depends on everything, at the start, too. FMI 2.0 wants their places among all variables, 3.0 their
+   !> references.
+   subroutine add_structure(build, fmi, model)
       type(text_builder), intent(inout) :: build
-      character(len=*), intent(in) :: element
-      integer, intent(in) :: model
+      integer, intent(in) :: fmi, model
+      integer, allocatable :: reference(:), place(:)
       integer :: i
 
-      do i = 1, output_count(model)
-         if (outputs(i)%name /= "") call build%line("    <"//element//' valueReference="'//to_text(first_output + i - 1)//'"/>')
-      end do
-   end subroutine add_outputs
+      reference = pack([(first_output + i - 1, i=1, output_count(model))], outputs(:output_count(model))%name /= "")
+      place = [(size(inputs) + i, i=1, size(reference))]
+      call build%line("  <ModelStructure>")
+      call build%line("    "//unknowns_elements(fmi, "Output", place, reference))
+      call build%line("    "//unknowns_elements(fmi, "InitialUnknown", place, reference))
+      call build%line("  </ModelStructure>")
+   end subroutine add_structure
 
    !> All values of the one case, with the defaults that are made of others.
    subroutine values_of(deck, value)
@@ -257,31 +271,5 @@ contains
       text = to_text(size(inputs))//" inputs, "//to_text(count(outputs(:output_count(model))%name /= ""))//" outputs, " &
          & //to_text(count([(is_parameter(key, model, nint(value(key_pressure_kind))), key=1, n_keys)]))//" parameters"
    end function counts_text
-
-   !> As XML wants it in an attribute.
-   function escaped(text)
-      character(len=*), intent(in) :: text
-      character(len=:), allocatable :: escaped
-      type(text_builder) :: build
-      integer :: i
-
-      do i = 1, len(text)
-         select case (text(i:i))
-         case ("&")
-            call build%add("&amp;")
-         case ("<")
-            call build%add("&lt;")
-         case (">")
-            call build%add("&gt;")
-         case ('"')
-            call build%add("&quot;")
-         case (achar(0):achar(31))
-            call build%add(" ")   ! most are not allowed there at all
-         case default
-            call build%add(text(i:i))
-         end select
-      end do
-      escaped = build%text()
-   end function escaped
 
 end module rv_fmu_description

@@ -63,8 +63,9 @@ module rv_fmu_pack
 contains
 
    !> Write the FMU of a checked deck, whole or not at all.
-   subroutine pack_fmu(deck, path, force, error)
+   subroutine pack_fmu(deck, fmi, path, force, error)
       type(deck_type), intent(in) :: deck
+      integer, intent(in) :: fmi     !! version of FMI: 2 or 3
       character(len=*), intent(in) :: path
       logical, intent(in) :: force   !! a file that is there may go
       type(error_type), allocatable, intent(out) :: error
@@ -81,7 +82,7 @@ contains
       if (.not. allocated(error) .and. kind /= path_none .and. kind /= path_file) then
          call fail(error, rv_bad_input, "'"//path//"' is not a file")
       end if
-      if (.not. allocated(error)) call collect(deck, archive, error)
+      if (.not. allocated(error)) call collect(deck, fmi, archive, error)
       if (.not. allocated(error)) call zip(archive, bytes, error)
       if (allocated(error)) return
       taken = .false.
@@ -95,19 +96,20 @@ contains
    end subroutine pack_fmu
 
    !> All that is in the FMU.
-   subroutine collect(deck, archive, error)
+   subroutine collect(deck, fmi, archive, error)
       type(deck_type), intent(in) :: deck
+      integer, intent(in) :: fmi
       type(archive_type), intent(out) :: archive
       type(error_type), allocatable, intent(out) :: error
       character(len=:), allocatable :: settings, description, folder, binaries
 
       allocate(archive%name(0), archive%data(0))
       call valve_deck(deck, settings)
-      call describe(deck, token_of(settings), description)
+      call describe(deck, fmi, token_of(settings), description)
       call add(archive, "modelDescription.xml", description)
       call find_folder(folder, error)
+      if (.not. allocated(error)) call name_binaries(fmi, platform(), binaries, error)
       if (allocated(error)) return
-      binaries = "binaries/"//platform()//"/"
       call add_file(archive, binaries//library_name//".so", folder//library_name//".so", error)
       if (.not. allocated(error)) call add_companions(archive, binaries, error)
       if (.not. allocated(error)) call add_file(archive, "documentation/licenses/license.txt", folder//license_file, error)
@@ -181,6 +183,21 @@ contains
       end if
    end subroutine find_folder
 
+   !> Folder of the library in an FMU, with a / at its end. FMI 2.0 has names for few machines.
+   subroutine name_binaries(fmi, machine, folder, error)
+      integer, intent(in) :: fmi
+      character(len=*), intent(in) :: machine   !! as FMI 3.0 names it
+      character(len=:), allocatable, intent(out) :: folder
+      type(error_type), allocatable, intent(out) :: error
+
+      folder = "binaries/"//machine//"/"
+      if (fmi == 3) return
+      folder = "binaries/linux64/"
+      if (machine /= "x86_64-linux") call fail(error, rv_bad_input, "FMI 2.0 has no name for '"//machine &
+         & //"', this kind of machine: take --fmi 3")
+   end subroutine name_binaries
+
+   !> This kind of machine, as FMI 3.0 names it.
    function platform() result(name)
       character(len=:), allocatable :: name
       character(len=40), target :: buffer

@@ -13,6 +13,7 @@ module rv_cli_arguments
       character(len=:), allocatable :: operand   !! the deck, folder or model; empty: none
       character(len=:), allocatable :: folder    !! -o; empty: none
       integer :: threads = 0                     !! 0: not given
+      integer :: fmi = 3                         !! version of FMI
       integer :: slice = 1                       !! --slice I/N
       integer :: slices = 0                      !! 0: not given
       logical :: resume = .false.
@@ -103,7 +104,7 @@ contains
          call bad(error, "'"//trim(command%name)//"' has no option '"//option//"'"//meant)
          return
       end if
-      if (option == "-o" .or. option == "--threads" .or. option == "--slice") then
+      if (option == "-o" .or. option == "--fmi" .or. option == "--threads" .or. option == "--slice") then
          if (.not. has_value) then
             place = place + 1
             value = argument(place)
@@ -119,6 +120,9 @@ contains
       select case (option)
       case ("-o")
          arguments%folder = value
+      case ("--fmi")
+         if (value /= "2" .and. value /= "3") call bad(error, "--fmi takes 2 or 3, not '"//value//"'")
+         arguments%fmi = merge(2, 3, value == "2")
       case ("--threads")
          if (.not. is_count(value, most_threads, arguments%threads)) call bad(error, "--threads takes a whole number " &
             & //"from 1 to 1024, not '"//value//"'")

@@ -23,7 +23,7 @@ contains
       if (status /= exit_fine) return
       path = arguments%folder
       if (path == "") path = deck%name//".fmu"
-      call pack_fmu(deck, path, arguments%force, error)
+      call pack_fmu(deck, arguments%fmi, path, arguments%force, error)
       if (allocated(error)) then
          call complain(error%message)
          status = status_of(error)

@@ -23,7 +23,7 @@ contains
          if (commands(i)%name == "run") call say("  "//mpi_usage//"    "//mpi_help)
       end do
       call say("")
-      call say("Options of run (merge takes --threads and --quiet, fmu -o, --force and --quiet):")
+      call say("Options (run takes all but --fmi, merge --threads and --quiet, fmu -o, --fmi, --force and --quiet):")
       do i = 1, size(options)
          option_column = trim(options(i)%name)//" "//options(i)%value
          call say("  "//option_column//" "//trim(options(i)%help))

@@ -40,13 +40,14 @@ module rv_cli_table
       & "modes DECK", "plate modes in vacuum and oil; k_a and k_s that match the film"), &
       & command_type("merge", "DIR", .true., "--threads --quiet", &
       & "merge DIR", "write the results of a run whose cases are all finished"), &
-      & command_type("fmu", "DECK", .true., "-o --force --quiet", &
-      & "fmu DECK [-o FILE]", "pack a valve for co-simulation (FMI 3.0) in other programs"), &
+      & command_type("fmu", "DECK", .true., "-o --fmi --force --quiet", &
+      & "fmu DECK [options]", "pack a valve for co-simulation (FMI) in other programs"), &
       & command_type("help", "COMMAND", .false., "", "", ""), &
       & command_type("version", "", .false., "", "", "")]
 
-   type(word_type), parameter :: options(6) = [ &
+   type(word_type), parameter :: options(7) = [ &
       & word_type("-o", "DIR", "folder for the results (default: the deck's name without .nml, here); fmu: its file"), &
+      & word_type("--fmi", "N", "version of FMI, 2 or 3 (default: 3)"), &
       & word_type("--threads", "N", "threads to use (default: all processors; of an MPI rank: 1)"), &
       & word_type("--slice", "I/N", "run slice I of N only; slices may run at once, on many hosts; then: reedvalve merge DIR"), &
       & word_type("--resume", "", "go on with a run that was stopped or killed"), &

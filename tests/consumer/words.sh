@@ -43,8 +43,12 @@ bash_offers() { bash offers.bash "$prefix/share/bash-completion/completions/reed
 
 bash_offers '' | grep -v '^-' | grep -vxE 'help|version' >found.txt
 same "bash offers the commands" commands.txt found.txt
+grep -vx -- --fmi options.txt >run.txt
 bash_offers run my.nml - | grep -vx -- --help >found.txt
-same "bash offers the options of run" options.txt found.txt
+same "bash offers the options of run" run.txt found.txt
+printf '%s\n' --fmi --force --quiet -o | sort >expected.txt
+bash_offers fmu my.nml - | grep -vx -- --help >found.txt
+same "bash offers the options of fmu" expected.txt found.txt
 touch my.nml other.txt
 mkdir my
 echo my.nml >expected.txt
@@ -62,9 +66,9 @@ if command -v fish >/dev/null; then
    HOME=$work fish -c "source $prefix/share/fish/vendor_completions.d/reedvalve.fish
       complete -C 'reedvalve run my.nml --'; complete -C 'reedvalve run my.nml -'" |
       cut -f 1 | grep -vx -- -h | sort -u >found.txt
-   same "fish offers the options of run" options.txt found.txt
+   same "fish offers the options of run" run.txt found.txt
 fi
 if command -v zsh >/dev/null; then
    zsh -n "$prefix/share/zsh/site-functions/_reedvalve" || failed=1
 fi
-[ $failed = 0 ] && [ $checks -ge 7 ]
+[ $failed = 0 ] && [ $checks -ge 8 ]
