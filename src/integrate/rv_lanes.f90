@@ -330,7 +330,7 @@ contains
    !> A step of no length at t.
    subroutine begin_step(problem, t, q, v, live, step)
       type(problem_type), intent(inout) :: problem
-      real(wp), intent(in) :: t
+      real(wp), value :: t   !! may be the step's own
       real(wp), dimension(problem%lanes%width, problem%lanes%dofs), intent(in) :: q, v
       logical, intent(in) :: live(:)
       type(step_type), intent(inout) :: step

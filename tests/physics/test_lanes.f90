@@ -1,10 +1,11 @@
 !> Lanes keep to themselves: company, order, hard and failing neighbours change a case by no more than its tolerance.
 program test_lanes
    use, intrinsic :: ieee_arithmetic, only : ieee_is_nan, ieee_value, ieee_quiet_nan
+   use rv_error, only : error_type
    use rv_kinds, only : wp
    use rv_lanes, only : lane_outcome, lane_settings
    use rv_lumped, only : lumped_valve
-   use rv_pressure, only : square_wave
+   use rv_pressure, only : new_square_wave, square_wave
    use rv_status, only : status_film_closed, status_ok, status_name, status_too_many_steps
    use check, only : suite_type
    use paper_valve, only : run_lumped, valve_at, wave_40ms, kpa, mm, ms
@@ -17,6 +18,7 @@ program test_lanes
    call alone_and_in_company()
    call failing_neighbour()
    call neighbour_on_its_seat()
+   call neighbour_in_motion()
    call end_of_cycle()
    call step_limit()
    call stiff_films()
@@ -110,6 +112,32 @@ contains
       call suite%close("of the lane with a NaN the start is known", with%trace(1, 1, 1), 0.0_wp, 0.0_wp, 0.0_wp)
       call suite%true("but no more", all(ieee_is_nan(with%trace(2, :, 1))))
    end subroutine failing_neighbour
+
+   !> A reed that strikes its seat while another one moves, in a cycle too short to come to rest: the other goes on from
+   !> there, neither from another state nor from another time.
+   subroutine neighbour_in_motion()
+      integer, parameter :: n = 100
+      type(lumped_valve) :: valve(2)
+      type(lane_outcome) :: with, without
+      type(lane_settings) :: settings
+      type(square_wave) :: wave
+      type(error_type), allocatable :: error
+      real(wp) :: time(0:n)
+      integer :: i, last
+
+      settings%t_end = 2.0_wp*ms
+      settings%rtol = rtol
+      time = [(settings%t_end*real(i, wp)/real(n, wp), i=0, n)]
+      call new_square_wave(wave, 2.0_wp*ms, 0.1_wp*ms, error)
+      valve = [valve_at(20.0_wp*kpa, 0.05_wp*mm, 0.0075_wp), valve_at(20.0_wp*kpa, 0.001_wp*mm, 1.0e-70_wp)]
+      call run_lumped(valve, wave, settings, time, with)
+      call run_lumped(valve(:1), wave, settings, time, without)
+      last = count(.not. ieee_is_nan(with%trace(:, 1, 2))) - 1
+      call suite%true("the reed strikes its seat ("//with%message(2)%s//")", with%status(2) == status_film_closed)
+      call suite%true("between the event and the end", last > n/2 .and. last < n - 5)
+      call suite%close("largest distance of the other's displacement", &
+         & maxval(abs(with%trace(:, 1, 1) - without%trace(:, 1, 1)))/with%measure(1, 1), 0.0_wp, 0.0_wp, 1.0e-5_wp)
+   end subroutine neighbour_in_motion
 
    !> What happens after the end of the cycle is not measured.
    subroutine end_of_cycle()
