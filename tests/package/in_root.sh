@@ -23,12 +23,13 @@ awk '/^## / {heading = substr($0, 4)} /\/examples\// && heading != last {print l
 built=0
 while read -r heading; do
    echo "== $heading"
-   sh page.sh example /debs/install.md "$heading" /nowhere "/work/$built" /usr
+   sh page.sh example /debs/install.md "$heading" /nowhere "/work/$built" /usr || exit 1   # where a skip is a failure
    built=$((built + 1))
 done <headings
-[ $built -ge 4 ]
+[ $built -ge 7 ]
+python3 -c 'import reedvalve'
 
 echo "== purge"
-apt-get -q -y purge reedvalve reedvalve-mpi 'libreedvalve*' >log 2>&1 || { tail -n 20 log; exit 1; }
+apt-get -q -y purge reedvalve reedvalve-mpi python3-reedvalve 'libreedvalve*' >log 2>&1 || { tail -n 20 log; exit 1; }
 left=$(find / -xdev -path /debs -prune -o -path /work -prune -o -name '*reedvalve*' -print)
 [ -z "$left" ] || { echo "left behind: $left"; exit 1; }

@@ -58,10 +58,11 @@ SIGNATURES: dict[str, tuple[Any, ...]] = {
 
 
 def candidates() -> list[str]:
-    """Where the library may be, the likeliest first: in the package, as REEDVALVE_LIBRARY says, or installed."""
-    inside = Path(__file__).with_name("libreedvalve.so")
+    """Where the library may be: in the package, as REEDVALVE_LIBRARY says, in the tree of the package, or installed."""
+    here = Path(__file__).parent
     named = os.environ.get("REEDVALVE_LIBRARY")
-    return [*([str(inside)] if inside.exists() else []), *([named] if named else []), INSTALLED]
+    beside = here / "../../.." / INSTALLED  # the package is in lib/python3/dist-packages
+    return [str(here / "libreedvalve.so"), *([named] if named else []), str(beside), INSTALLED]
 
 
 def load() -> ctypes.CDLL:
