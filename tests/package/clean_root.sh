@@ -1,8 +1,9 @@
-# clean_root.sh DEBS TESTS PAGE: install the packages in the folder DEBS into a Debian of its own that has nothing else, run
-# the programs there, and build the examples by the commands of PAGE, as TESTS/page.sh does.
+# clean_root.sh DEBS TESTS DOCS: install the packages in the folder DEBS into a Debian of its own that has nothing else, run
+# the programs there, simulate an FMU and build the examples as the pages in DOCS say, by the scripts in TESTS. FMPy, which
+# Debian has not, is that of python3 here.
 set -eu
 PATH=$PATH:/usr/sbin:/sbin
-debs=$1 tests=$2 page=$3
+debs=$1 tests=$2 docs=$3
 skip() {
    echo "skipped: $1"
    [ -z "${2:-}" ] || tail -n 5 "$2"
@@ -28,7 +29,8 @@ for file in /etc/apt/apt.conf.d/* /etc/resolv.conf /etc/hosts /etc/ssl/certs/ca-
    esac
 done
 mkdir "$root/debs"
-cp "$debs"/*.deb "$tests/page.sh" "$page" "$root/debs"
-cp "$(dirname "$0")/in_root.sh" "$root/debs"
+cp "$debs"/*.deb "$tests/page.sh" "$tests/fmu.sh" "$docs/install.md" "$docs/fmu.md" "$(dirname "$0")/in_root.sh" "$root/debs"
+mkdir "$root/importer"
+cp -r "$(python3 -c 'import fmpy; print(fmpy.__path__[0])')" "$root/importer"
 
 unshare --mount sh -c "mount -t proc proc $root/proc && mount --rbind /dev $root/dev && chroot $root sh -eu /debs/in_root.sh"
