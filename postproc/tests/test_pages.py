@@ -119,3 +119,16 @@ def test_readme_modes(tmp_path):
     (tmp_path / "my.nml").write_text("&run model = 'film' /\n", encoding="utf-8")
     last = readme("$ reedvalve modes").splitlines()[1:]
     assert shell("reedvalve modes my.nml", tmp_path).stdout.splitlines()[-len(last) :] == last
+
+
+def test_readme_routes():
+    """Each link goes to a heading with a block of at most ten lines below it, which the test of its page runs."""
+    table = (ROOT / "README.md").read_text("utf-8").split("## In other programs")[1]
+    links = re.findall(r"\(docs/(\w+[.]md)#([-\w]+)\)", table)
+    assert len(links) >= 11
+    for page, anchor in links:
+        sections = re.split(r"^##+ ", (ROOT / "docs" / page).read_text("utf-8"), flags=re.MULTILINE)
+        below = next(
+            text for text in sections if re.sub(r"[ +]", "-", text.splitlines()[0].lower()).strip("-") == anchor
+        )
+        assert re.search(r"^```(?!text)\w+\n(.*\n){1,10}?```$", below, re.MULTILINE), (page, anchor)
