@@ -1,4 +1,4 @@
-"""docs/python.md: each example prints what stands there and is short; the quick start prints what stands beside it."""
+"""docs/python.md: each example, and the quick start, print what stands there; each is short."""
 
 from __future__ import annotations
 
@@ -45,4 +45,5 @@ def test_quick_start(has_matplotlib: bool, tmp_path: Path) -> None:
     words = [sys.executable, "-W", "error", "-c", "\n".join(lines)]
     done = subprocess.run(words, env=names, cwd=tmp_path, capture_output=True, text=True, check=True)
     assert done.stdout == QUICK_START.with_suffix(".txt").read_text(encoding="utf-8")
+    assert f"```text\n{done.stdout}```\n" in PAGE
     assert [path.name for path in tmp_path.iterdir()] == (["quick_start.png"] if has_matplotlib else [])
