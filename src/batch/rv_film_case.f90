@@ -24,6 +24,7 @@ module rv_film_case
    integer, parameter :: elements_around(3) = [6, 4, 2]  !! film mesh of film.mesh = 1: on arc, side and clamp
    integer, parameter :: elements_across = 3
    integer, parameter :: n_planform = 9            !! values in planform_key
+   real(wp), parameter :: table_gap = 0.1e-3_wp    !! of tables that hold for any gap, lest the first case choose [m]
 
    !> What a valve depends on besides planform, gap and pressure.
    integer, parameter :: valve_keys(8) = [key_run_model, key_reed_thickness_mm, key_reed_density_kg_m3, &
@@ -141,6 +142,7 @@ contains
       real(wp), intent(in) :: value(n_keys)
       type(planform_cache), intent(inout) :: cache
       type(error_type), allocatable, intent(out) :: error
+      real(wp) :: gap
       integer :: mesh, modes
 
       if (all(abs(planform_key(value) - cache%key) <= 0.0_wp)) return
@@ -155,7 +157,8 @@ contains
       if (allocated(error)) return
       if (nint(value(key_run_model)) == model_film_table .and. .not. film_is_closed(value)) then
          allocate(cache%table)
-         call new_film_table(cache%table, cache%reed, value(key_film_gap_mm), error)
+         gap = merge(value(key_film_gap_mm), table_gap, holds_for_one_gap(value))
+         call new_film_table(cache%table, cache%reed, gap, error)
          if (allocated(error)) return
       end if
       cache%key = planform_key(value)
@@ -174,8 +177,14 @@ contains
       if (all(model /= [model_film, model_film_table])) return
       key(:7) = [value(key_run_model), value(key_reed_a_mm), value(key_reed_hole_diameter_mm), value(key_reed_b_mm), &
          & value(key_reed_width_mm), value(key_reed_poisson_ratio), value(key_film_edge_elongation)]
-      if (model == model_film_table .and. value(key_film_edge_elongation) > 0.0_wp) key(8) = value(key_film_gap_mm)
+      if (model == model_film_table .and. holds_for_one_gap(value)) key(8) = value(key_film_gap_mm)
    end function planform_key
+
+   pure logical function holds_for_one_gap(value)
+      real(wp), intent(in) :: value(n_keys)
+
+      holds_for_one_gap = value(key_film_edge_elongation) > 0.0_wp
+   end function holds_for_one_gap
 
    !> Nodes of the film mesh of a refinement.
    pure integer function mesh_nodes(mesh)

@@ -17,6 +17,19 @@ for threads in 2 4; do
       same one many
    done
 done
+
+# a thread's table of the film does not depend on the gap it met first
+cat >film.nml <<'END'
+&run model = 'film_table', block_size = 1, t_end_ms = 25.0 /
+&sweep key = 'film.gap_mm', values = 0.05, 0.1, 0.2, 0.3 /
+END
+expect 0 'none failed' run film.nml -o film_one --threads 1
+expect 0 'none failed' run film.nml -o film_two --threads 2
+same film_one film_two
+for slice in 4 3 2 1; do expect 0 '' run film.nml -o film_slices --slice $slice/4; done
+expect 0 'none failed' merge film_slices
+same film_one film_slices
+
 sleep 1.1   # a time stamp would show
 mkdir elsewhere
 cp deck.nml elsewhere
