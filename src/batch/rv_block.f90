@@ -19,7 +19,7 @@ module rv_block
       & key_pressure_kind, key_pressure_inlet_kpa, &
       & key_pressure_period_ms, key_pressure_transition_ms, key_pressure_file, key_pressure_event_ms, &
       & key_solver_rtol, key_solver_max_steps, key_solver_method, key_solver_width
-   use rv_lanes, only : lane_outcome, method_implicit, run_lanes
+   use rv_lanes, only : lane_outcome, method_auto, method_implicit, run_lanes
    use rv_measures, only : n_measures, measure_steady, measure_overshoot, measure_undershoot
    use rv_number, only : tidy
    use rv_pressure, only : pressure_history
@@ -139,8 +139,9 @@ contains
       if (nint(value(key_run_model)) == model_film) width = 1
    end function widest_group
 
-   !> Run the lanes of one group and put their results in place.
-   subroutine run_group(deck, value, place, time, cache, result)
+   !> Run the lanes of one group and put their results in place. Cases that only their group may have kept from their end
+   !> run again, each alone, and implicitly where that was left to us.
+   recursive subroutine run_group(deck, value, place, time, cache, result)
       type(deck_type), intent(in) :: deck
       real(wp), intent(in) :: value(:, :)       !! (n_keys, cases of the group)
       integer, intent(in) :: place(:)           !! their places in the block
@@ -173,9 +174,28 @@ contains
             cycle
          end if
          lane = lane + 1
-         call note_outcome(value(:, i), facts(i), outcome, lane, place(i), result)
+         if (outcome%given_up(lane) .and. (size(place) > 1 .or. is_auto(value(:, i)))) then
+            call run_group(deck, alone(value(:, i)), place(i:i), time, cache, result)
+         else
+            call note_outcome(value(:, i), facts(i), outcome, lane, place(i), result)
+         end if
       end do
    end subroutine run_group
+
+   pure logical function is_auto(value)
+      real(wp), intent(in) :: value(n_keys)
+
+      is_auto = nint(value(key_solver_method)) == method_auto
+   end function is_auto
+
+   !> A case as a group of its own.
+   pure function alone(value) result(group)
+      real(wp), intent(in) :: value(n_keys)
+      real(wp) :: group(n_keys, 1)
+
+      group(:, 1) = value
+      if (is_auto(value)) group(key_solver_method, 1) = real(method_implicit, wp)
+   end function alone
 
    !> Results of one lane.
    subroutine note_outcome(value, facts, outcome, lane, place, result)

@@ -52,6 +52,7 @@ module rv_lanes
    type :: lane_outcome
       integer, allocatable :: status(:)          !! status_
       type(text_type), allocatable :: message(:) !! why and when a lane failed, else empty
+      logical, allocatable :: given_up(:)        !! lanes that failed with their group, and alone might not
       real(wp), allocatable :: measure(:, :)     !! (n_measures, width)
       real(wp), allocatable :: trace(:, :, :)    !! (time, traces, width)
       real(wp), allocatable :: field(:, :, :)    !! film pressure (nodes, field time, width) [Pa]
@@ -82,6 +83,7 @@ contains
 
       w = lanes%width
       allocate(outcome%status(w), source=status_ok)
+      allocate(outcome%given_up(w), source=.false.)
       allocate(outcome%message(w))
       do i = 1, w
          outcome%message(i)%s = ""
@@ -284,6 +286,7 @@ contains
          if (outcome%status(i) /= status_ok) cycle
          outcome%status(i) = status
          outcome%message(i)%s = message
+         outcome%given_up(i) = .true.
       end do
    end subroutine fail_rest
 

@@ -18,6 +18,26 @@ expect 1 'too_many_steps' run deck.nml --force --quiet
 if [ -s out.txt ]; then wrong "--quiet prints on standard output"; else pass "--quiet prints nothing but errors"; fi
 expect 1 'finished before' run deck.nml --resume
 
+# a case without hope does not keep its neighbour from its end; where the method is left to us, it is no reason to give up
+# with_neighbour METHOD PRESSURE VISCOSITY: the paper's valve beside one that is drawn onto its seat; what became of both
+with_neighbour() {
+   printf 'film.gap_mm,pressure.inlet_kpa,fluid.viscosity_pa_s\n0.05,20,0.0484\n0.3,%s,%s\n' "$2" "$3" >both.csv
+   printf "&solver method = '%s', max_steps = 3000 /\n&design file = 'both.csv' /\n" "$1" >both.nml
+   "$program" run both.nml --force --quiet >/dev/null 2>&1
+   became=$(tail -n 2 both/summary.csv | cut -d, -f 15 | tr '\n' ' ')
+}
+with_neighbour implicit -100000 1e-7
+if [ "$became" = 'ok too_many_steps ' ]; then pass "implicit beside one without hope"; else wrong "implicit: $became"; fi
+with_neighbour explicit -1000 0.0484
+if [ "$became" = 'ok too_many_steps ' ]; then pass "explicit beside one without hope"; else wrong "explicit: $became"; fi
+printf "&solver method = 'explicit' /\n" >paper.nml
+expect 0 'none failed' run paper.nml
+beside=$(sed -n 2p both/summary.csv | cut -d, -f 6-14)
+alone=$(sed -n 2p paper/summary.csv | cut -d, -f 3-11)
+if [ "$beside" = "$alone" ]; then pass "it is as it is alone"; else wrong "$beside and alone $alone"; fi
+with_neighbour auto -1000 0.0484
+if [ "$became" = 'ok ok ' ]; then pass "auto goes on implicitly"; else wrong "auto: $became"; fi
+
 # a warning is not a failure
 printf "&hydro load = 'maali' /\n&reed thickness_mm = 0.3 /\n" >warned.nml
 expect 0 '1 of 1 cases is marked reynolds_range' run warned.nml
