@@ -13,6 +13,11 @@ program (:meth:`Valve.begin`, :meth:`Valve.step`).
 The models are those of M. Zhang, Y. Zhu, L. Li and J. Ling; docs/theory.md of the source has the equations.
 """
 
+try:
+    import numpy as _numpy  # noqa: F401
+except ModuleNotFoundError as _trouble:
+    raise ImportError("reedvalve needs NumPy: pip install numpy, or apt install python3-numpy") from _trouble
+
 from ._errors import (
     BadInputError,
     DomainError,

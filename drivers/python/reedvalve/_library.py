@@ -58,11 +58,13 @@ SIGNATURES: dict[str, tuple[Any, ...]] = {
 
 
 def candidates() -> list[str]:
-    """Where the library may be: in the package, as REEDVALVE_LIBRARY says, in the tree of the package, or installed."""
-    here = Path(__file__).parent
+    """Where the library may be: as REEDVALVE_LIBRARY says and only there, or in the package, its tree or installed."""
     named = os.environ.get("REEDVALVE_LIBRARY")
-    beside = here / "../../.." / INSTALLED  # the package is in lib/python3/dist-packages
-    return [str(here / "libreedvalve.so"), *([named] if named else []), str(beside), INSTALLED]
+    if named:
+        return [named]
+    here = Path(__file__).parent
+    beside = os.path.normpath(here / "../../.." / INSTALLED)  # the package is in lib/python3/dist-packages
+    return [str(here / "libreedvalve.so"), beside, INSTALLED]
 
 
 def load() -> ctypes.CDLL:
@@ -71,7 +73,8 @@ def load() -> ctypes.CDLL:
     Raises ImportError, with what was tried, when there is none or when it lacks a function.
     """
     troubles = []
-    for name in candidates():
+    names = candidates()
+    for name in names:
         try:
             library = ctypes.CDLL(name)
             for function, arguments in SIGNATURES.items():
@@ -80,6 +83,8 @@ def load() -> ctypes.CDLL:
             troubles.append(str(trouble))
         else:
             return library
+    if len(names) == 1:
+        raise ImportError(f"REEDVALVE_LIBRARY names '{names[0]}', which cannot be loaded: {troubles[0]}")
     raise ImportError(
         "the library of reedvalve cannot be loaded; REEDVALVE_LIBRARY may name it:\n   " + "\n   ".join(troubles)
     )

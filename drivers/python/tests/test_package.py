@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import doctest
 import re
+import shutil
 import subprocess
 import sys
 from dataclasses import fields
@@ -102,22 +103,47 @@ def test_examples_of_docstrings() -> None:
     assert rv.product.__module__ == "reedvalve"
 
 
-def import_with(**names: object) -> subprocess.CompletedProcess[str]:
+def import_with(package: Path = Path(rv.__file__).parent, **names: object) -> subprocess.CompletedProcess[str]:
     """Import the package in a new interpreter with these variables of the environment."""
     words = [sys.executable, "-B", "-c", "import reedvalve; print(reedvalve.__version__)"]
-    env = {"PYTHONPATH": str(Path(rv.__file__).parents[1]), **{name: str(value) for name, value in names.items()}}
+    env = {"PYTHONPATH": str(package.parent), **{name: str(value) for name, value in names.items()}}
     return subprocess.run(words, env=env, capture_output=True, text=True)
 
 
-def test_library_is_named(tmp_path: Path) -> None:
-    """REEDVALVE_LIBRARY says which, else it is an installed one; without any the import says what was tried."""
+@pytest.fixture
+def whole_package(tmp_path: Path) -> Path:
+    """A copy of the package with its library inside, as a wheel has it."""
+    package = shutil.copytree(Path(rv.__file__).parent, tmp_path / "reedvalve")
+    (package / "libreedvalve.so").symlink_to(LIBRARY)
+    return package
+
+
+def test_library_is_named(whole_package: Path) -> None:
+    """REEDVALVE_LIBRARY says which, and no other is taken; else it is that of the package, or an installed one."""
     assert import_with(REEDVALVE_LIBRARY=LIBRARY).stdout == f"{rv.__version__}\n"
     assert import_with(LD_LIBRARY_PATH=LIBRARY.parent).stdout == f"{rv.__version__}\n"
-    missing = import_with(REEDVALVE_LIBRARY=tmp_path / "none.so")
+    assert import_with(whole_package, REEDVALVE_LIBRARY="").stdout == f"{rv.__version__}\n"
+    for name, why in (("/none.so", "cannot open shared object file"), ("libm.so.6", "undefined symbol: rv_version")):
+        refused = import_with(whole_package, REEDVALVE_LIBRARY=name)
+        assert refused.returncode != 0
+        assert f"ImportError: REEDVALVE_LIBRARY names '{name}', which cannot be loaded: " in refused.stderr
+        assert why in refused.stderr
+
+
+def test_library_is_missing() -> None:
+    """The import says what was tried, in plain paths."""
+    missing = import_with()
     if missing.returncode != 0:  # else one is installed on this machine
         assert "the library of reedvalve cannot be loaded; REEDVALVE_LIBRARY may name it:" in missing.stderr
-        assert "none.so: cannot open shared object file" in missing.stderr
         assert f"{_library.INSTALLED}: cannot open shared object file" in missing.stderr
+        assert ".." not in missing.stderr.split("may name it:")[1]
+
+
+def test_numpy_is_missing(tmp_path: Path) -> None:
+    """The import says what is needed."""
+    (tmp_path / "numpy.py").write_text("raise ModuleNotFoundError('numpy')\n", encoding="utf-8")
+    path = f"{tmp_path}:{Path(rv.__file__).parents[1]}"
+    assert "ImportError: reedvalve needs NumPy: pip install numpy, or apt" in import_with(PYTHONPATH=path).stderr
 
 
 def test_installed_name() -> None:
