@@ -61,6 +61,8 @@ int rv_fmu_loaded_library(const char *prefix, char *path, size_t size) {
 
 enum { effort = 6 }; /* of 9, in a third of the time, for a hundredth of the size */
 
+static const zip_uint32_t mode = 0100644u << 16; /* a file that all may read and its owner may write; unset, it is 0666 */
+
 /* One date for all entries makes equal archives of equal contents. */
 static int add(zip_t *archive, const char *name, const void *data, size_t size) {
   zip_source_t *source = zip_source_buffer(archive, data, size, 0);
@@ -72,6 +74,7 @@ static int add(zip_t *archive, const char *name, const void *data, size_t size) 
     return -1;
   }
   if (zip_set_file_compression(archive, (zip_uint64_t)place, ZIP_CM_DEFLATE, effort) != 0) return -1;
+  if (zip_file_set_external_attributes(archive, (zip_uint64_t)place, 0, ZIP_OPSYS_UNIX, mode) != 0) return -1;
   return zip_file_set_dostime(archive, (zip_uint64_t)place, 0, (1 << 5) | 1, 0); /* 1 January 1980 */
 }
 

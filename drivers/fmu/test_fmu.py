@@ -6,6 +6,7 @@ import ctypes
 import os
 import re
 import shutil
+import stat
 import subprocess
 import sys
 import threading
@@ -700,6 +701,7 @@ def test_packing(tmp_path: Path) -> None:
         assert (tmp_path / "my.fmu").read_bytes() == (tmp_path / "again.fmu").read_bytes()
         entries = zipfile.ZipFile(tmp_path / "my.fmu").infolist()
         assert {entry.date_time for entry in entries} == {(1980, 1, 1, 0, 0, 0)}
+        assert {stat.filemode(entry.external_attr >> 16) for entry in entries} == {"-rw-r--r--"}
         assert validate_fmu(str(tmp_path / "my.fmu")) == []
         assert fmpy.read_model_description(str(tmp_path / "my.fmu")).fmiVersion == f"{version}.0"
     deck.write_text("&run model = 'squeeze', 'film' /\n&sweep key = 'film.gap_mm', values = 0.1, 0.2 /")
