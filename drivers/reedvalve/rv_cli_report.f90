@@ -90,8 +90,8 @@ contains
       do i = 1, n_warnings
          if (outcome%tally%warned(i) > 0) call complain("warning: "//to_text(outcome%tally%warned(i)) &
             & //" of "//to_text(outcome%tally%cases)//" cases " &
-            & //trim(merge("is ", "are", outcome%tally%warned(i) == 1))//" marked "//warning_name(i)//"; the first: " &
-            & //bare(outcome%tally%warning(i)%s))
+            & //trim(merge("is ", "are", outcome%tally%warned(i) == 1))//" marked "//warning_name(i)//"; the first is case " &
+            & //to_text(outcome%tally%first_warned(i))//after_colon(outcome%tally%warning(i)%s))
       end do
       call say(cases_text(outcome))
       if (outcome%has_csv) then
@@ -161,15 +161,14 @@ contains
       if (text /= "") text = " ("//text(3:)//")"
    end function kinds
 
-   pure function bare(message) result(text)
+   !> ": Re = ..." of "warning: Re = ...", nothing where there is no message.
+   pure function after_colon(message) result(text)
       character(len=:), allocatable, intent(in) :: message
       character(len=:), allocatable :: text
 
-      text = "see its message"
-      if (.not. allocated(message)) return
-      text = message
-      if (index(text, "warning: ") == 1) text = text(10:)
-   end function bare
+      text = ""
+      if (allocated(message)) text = ": "//message(merge(10, 1, index(message, "warning: ") == 1):)
+   end function after_colon
 
    !> "1 thread", "2 threads"
    pure function counted(n, noun) result(text)

@@ -17,7 +17,8 @@ module rv_tally
       integer(i8) :: warned(n_warnings) = 0
       type(text_type) :: failure(most_named)   !! the first failures: "case 17 (film_closed): ..."
       integer :: named = 0                     !! how many of them there are
-      type(text_type) :: warning(n_warnings)   !! of each warning the message of its first case
+      integer(i8) :: first_warned(n_warnings) = 0   !! of each warning its first case
+      type(text_type) :: warning(n_warnings)   !! and what is told of that case, if that is this warning and nothing else
    contains
       procedure :: add
    end type tally_type
@@ -36,11 +37,21 @@ contains
          do bit = 1, n_warnings
             if (.not. btest(result%warnings(i), bit - 1)) cycle
             self%warned(bit) = self%warned(bit) + 1
-            if (self%warned(bit) == 1) self%warning(bit)%s = result%message(i)%s
+            if (self%warned(bit) == 1) call name_warning(self, result, i, bit)
          end do
          if (result%status(i) /= status_ok) call name_failure(self, result, i)
       end do
    end subroutine add
+
+   !> A message tells of the failure and of all warnings of its case.
+   subroutine name_warning(self, result, i, bit)
+      class(tally_type), intent(inout) :: self
+      type(block_result), intent(in) :: result
+      integer, intent(in) :: i, bit
+
+      self%first_warned(bit) = result%first + i - 1
+      if (result%status(i) == status_ok .and. result%warnings(i) == 2**(bit - 1)) self%warning(bit)%s = result%message(i)%s
+   end subroutine name_warning
 
    subroutine name_failure(self, result, i)
       class(tally_type), intent(inout) :: self

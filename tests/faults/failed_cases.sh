@@ -40,7 +40,7 @@ if [ "$became" = 'ok ok ' ]; then pass "auto goes on implicitly"; else wrong "au
 
 # a warning is not a failure
 printf "&hydro load = 'maali' /\n&reed thickness_mm = 0.3 /\n" >warned.nml
-expect 0 '1 of 1 cases is marked reynolds_range' run warned.nml
+expect 0 '1 of 1 cases is marked reynolds_range; the first is case 1: Re = [0-9.]* is outside the range' run warned.nml
 holds "the summary has it" grep -q 'ok,.*Re = ' warned/summary.csv
 
 # both film models watch for cavitation, without traces too
@@ -51,6 +51,16 @@ END
 expect 0 '2 of 2 cases are marked cavitation' run suction.nml
 rows=$(grep -Ec 'ok,.*falls to -(39|4[0-3])[.0-9]* kPa, below the vapour pressure' suction/summary.csv)
 if [ "$rows" = 2 ]; then pass "both tell how low"; else wrong "$rows of 2 tell how low: $(cat suction/summary.csv)"; fi
+
+# each kind of warning is told with its first case, and with words where that case has no others
+cat >warned_twice.nml <<'END'
+&run model = 'film_table', t_end_ms = 3.0 /
+&film modes = 1, vapour_pressure_kpa = -20.0 /
+&hydro load = 'maali' /
+&sweep key = 'reed.thickness_mm', values = 0.18, 0.3 /
+END
+expect 0 ' marked reynolds_range; the first is case 1$' run warned_twice.nml
+holds "cavitation has its own case" grep -Eq ' marked cavitation; the first is case 1$' err.txt
 
 # a film without a gap is closed before anything moves: its case ends there, whatever told the gap; others go on
 for model in squeeze film film_table; do
