@@ -19,7 +19,6 @@ module rv_setup
    private
    public :: setup_type, new_setup, read_setup, find_any_key
 
-   character(len=*), parameter :: nameless = "valve"          !! stands in messages for a deck's name
    character(len=*), parameter :: no_fields = "pressure fields go to the results of a run of a deck; a valve has none"
    real(wp), parameter :: surely_fine_gap = 1.0e-6_wp         !! in mm; smaller ones have a rule of their own
 
@@ -43,7 +42,7 @@ contains
    subroutine new_setup(self)
       type(setup_type), intent(out) :: self
 
-      call start_deck(nameless, self%deck)
+      call start_deck("", self%deck)
       self%deck%text = ""
       call put_defaults(self%deck)
    end subroutine new_setup

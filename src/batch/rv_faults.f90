@@ -84,7 +84,8 @@ contains
       is_warning = self%item(i)%is_warning
    end function is_warning
 
-   !> "deck.nml:12:8: film.gap_mm = -0.05: must be >= 0 (mm)"; a warning says so after the place.
+   !> "deck.nml:12:8: film.gap_mm = -0.05: must be >= 0 (mm)"; a warning says so after the place. Settings that are of no
+   !> file have no place.
    pure function item_text(self, i) result(text)
       class(fault_list), intent(in) :: self
       integer, intent(in) :: i
@@ -94,7 +95,7 @@ contains
          text = item%file
          if (item%line > 0) text = text//":"//to_text(item%line)
          if (item%line > 0 .and. item%column > 0) text = text//":"//to_text(item%column)
-         text = text//": "
+         if (text /= "") text = text//": "
          if (item%is_warning) text = text//"warning: "
          text = text//item%text
       end associate

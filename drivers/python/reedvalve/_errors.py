@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import sys
 import warnings
 from typing import TYPE_CHECKING
@@ -79,10 +80,10 @@ def error_of(code: int, message: str, result: Result | None = None) -> Reedvalve
 
 
 def warn(message: str) -> None:
-    """A warning of the library, if there is one, at the line that called the package."""
+    """A warning of the library, if there is one, at the line that called the package; that it is one its kind says."""
     if not message:
         return
     level, frame, folder = 1, sys._getframe(), os.path.dirname(__file__)
     while frame.f_back is not None and os.path.dirname(frame.f_code.co_filename) == folder:
         level, frame = level + 1, frame.f_back
-    warnings.warn(message, ReedvalveWarning, stacklevel=level)
+    warnings.warn(re.sub(r"^warning: ", "", message, flags=re.MULTILINE), ReedvalveWarning, stacklevel=level)

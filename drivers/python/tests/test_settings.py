@@ -5,6 +5,7 @@ from __future__ import annotations
 import copy
 import math
 import pickle
+import re
 import warnings
 from pathlib import Path
 
@@ -147,6 +148,19 @@ def test_warnings_stand_at_the_callers_line(tmp_path: Path) -> None:
     with pytest.warns(rv.ReedvalveWarning, match="no effect"):
         rv.Valve(film_modes=3).run()
     assert {warning.filename for warning in caught} == {__file__}
+
+
+def test_warnings_stand_alone() -> None:
+    """Without the name of a deck, which there is none of, and without saying what their kind says."""
+    closed = re.escape("film.gap_mm = 0: the film is closed from the start; such a case ends there as film_closed")
+    valve = rv.Valve()
+    with pytest.warns(rv.ReedvalveWarning, match=f"^case 1: {closed}$"):
+        valve.sweep({"film.gap_mm": [0.0, 0.05]})
+    valve["film.gap_mm"] = 0.0
+    with pytest.raises(rv.DomainError, match=f"^warning: {closed}\nat t = 0 ms: "):
+        valve.run()
+    with pytest.raises(rv.BadInputError, match=r"^pressure\.kind = 'trace' needs pressure\.file"):
+        rv.Valve(pressure_kind="trace").run()
 
 
 def test_closed_valve() -> None:
