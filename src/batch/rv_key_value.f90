@@ -63,9 +63,6 @@ contains
       end select
       if (trouble == "") trouble = range_trouble(key, value)
       if (trouble == "" .and. key == key_solver_width .and. popcnt(nint(value)) /= 1) trouble = "must be a power of two"
-      if (trouble == "" .and. key == key_film_gap_mm .and. value > 0.0_wp .and. value < smallest_gap_mm) then
-         trouble = "must be 0 or from "//to_text(smallest_gap_mm)//" to "//to_text(keys(key)%highest)//unit_in_parentheses(key)
-      end if
       value = to_si(key, value)
    end subroutine read_bare_value
 
@@ -93,23 +90,34 @@ contains
 
       trouble = ""
       associate (lowest => keys(key)%lowest)
-         if (value >= lowest .and. value <= keys(key)%highest) return
+         if (value >= lowest .and. value <= keys(key)%highest .and. .not. is_too_thin(key, value)) return
          if (lowest > 0.0_wp .and. value <= 0.0_wp) then
             trouble = "must be > 0"//unit_in_parentheses(key)
          else if (value < 0.0_wp .and. abs(lowest) <= 0.0_wp) then
             trouble = "must be >= 0"//unit_in_parentheses(key)
+         else if (key == key_film_gap_mm) then
+            trouble = "must be "//range_text(key)//unit_in_parentheses(key)
          else
             trouble = "must be from "//range_text(key)//unit_in_parentheses(key)
          end if
       end associate
    end function range_trouble
 
-   !> "0.001 to 1000"
+   !> A film of less than some molecules that is not closed?
+   pure logical function is_too_thin(key, value)
+      integer, intent(in) :: key
+      real(wp), intent(in) :: value   !! in the deck's unit
+
+      is_too_thin = key == key_film_gap_mm .and. value > 0.0_wp .and. value < smallest_gap_mm
+   end function is_too_thin
+
+   !> "0.001 to 1000", and of the gap "0, or 1e-6 to 1000"
    function range_text(key) result(text)
       integer, intent(in) :: key
       character(len=:), allocatable :: text
 
       text = to_text(keys(key)%lowest)//" to "//to_text(keys(key)%highest)
+      if (key == key_film_gap_mm) text = "0, or "//to_text(smallest_gap_mm)//" to "//to_text(keys(key)%highest)
    end function range_text
 
    function unit_in_parentheses(key) result(text)

@@ -73,7 +73,7 @@ contains
       call says(suite, "unusual value", "&sweep key = 'film.gap_mm', values = 0.1, 0.0001 /", &
          & "@:1:43: warning: film.gap_mm = 0.0001: unusually small for mm; was it given in m?")
       call says(suite, "ends out of range", "&sweep key = 'film.gap_mm', from = -0.1, to = 2e3, count = 1 /", &
-         & "@:1:36: film.gap_mm = -0.1: must be >= 0 (mm)~@:1:47: film.gap_mm = 2e3: must be from 0 to 1000 (mm)~" &
+         & "@:1:36: film.gap_mm = -0.1: must be >= 0 (mm)~@:1:47: film.gap_mm = 2e3: must be 0, or 1e-6 to 1000 (mm)~" &
          & //"@:1:60: sweep.count = 1: must be from 2 to 1000000")
       call says(suite, "scale", "&sweep key = 'film.gap_mm', from = 0.1, to = 0.2, count = 3, scale = 'lin' /", &
          & "@:1:70: sweep.scale = 'lin': must be one of 'linear', 'log'")

@@ -35,9 +35,9 @@ contains
       call says(suite, "zero that is allowed", "&film k_s = 0 /", "")
       call says(suite, "negative where zero is allowed", "&film k_s = -1e-9 /", &
          & "@:1:13: film.k_s = -1e-9: must be >= 0")
-      call says(suite, "huge", "&film gap_mm = 1e300 /", "@:1:16: film.gap_mm = 1e300: must be from 0 to 1000 (mm)")
+      call says(suite, "huge", "&film gap_mm = 1e300 /", "@:1:16: film.gap_mm = 1e300: must be 0, or 1e-6 to 1000 (mm)")
       call says(suite, "tiny", "&film gap_mm = 1e-300 /", &
-         & "@:1:16: film.gap_mm = 1e-300: must be 0 or from 1e-6 to 1000 (mm)")
+         & "@:1:16: film.gap_mm = 1e-300: must be 0, or 1e-6 to 1000 (mm)")
       call says(suite, "overflow", "&film gap_mm = 1e999 /", &
          & "@:1:16: film.gap_mm = 1e999: too large for a double-precision number")
       call says(suite, "underflow", "&film k_s = 1d-999 /", &
