@@ -7,7 +7,7 @@
 fmi3Status rv_fmu_refuse(fmi3Instance pointer, const char *function) {
   instance *self = rv_fmu_enter(pointer, function, anywhere);
   if (self == NULL) return fmi3Error;
-  return rv_fmu_fail(self, function, "this FMU does co-simulation, without events; it has no such thing");
+  return rv_fmu_fail(self, function, "this FMU does not offer this function");
 }
 
 fmi3Status rv_fmu_no_variables(fmi3Instance pointer, const char *function, size_t n) {

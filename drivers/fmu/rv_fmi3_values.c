@@ -20,8 +20,12 @@ instance *rv_fmu_enter_values(fmi3Instance pointer, const char *function, int al
   return NULL;
 }
 
-static fmi3Status no_variable(instance *self, const char *function, fmi3ValueReference reference) {
-  return rv_fmu_fail(self, function, "there is no such variable of this type, or it cannot be set: valueReference %u",
+static fmi3Status none_to_get(instance *self, const char *function, fmi3ValueReference reference) {
+  return rv_fmu_fail(self, function, "no variable of this type has valueReference %u", (unsigned)reference);
+}
+
+static fmi3Status none_to_set(instance *self, const char *function, fmi3ValueReference reference) {
+  return rv_fmu_fail(self, function, "no variable of this type that can be set has valueReference %u",
                      (unsigned)reference);
 }
 
@@ -53,7 +57,7 @@ static fmi3Status get_real(instance *self, const char *function, fmi3ValueRefere
   } else if (rv_fmu_parameter(self, reference, &found) && found.kind == RV_REAL) {
     return get_key(self, function, found.name, value);
   } else {
-    return no_variable(self, function, reference);
+    return none_to_get(self, function, reference);
   }
   return fmi3OK;
 }
@@ -69,7 +73,7 @@ fmi3Status fmi3GetFloat64(fmi3Instance pointer, const fmi3ValueReference referen
 /* The word of a key of a kind. */
 static fmi3Status get_word(instance *self, const char *function, fmi3ValueReference reference, int kind, char *word,
                            parameter *found) {
-  if (!rv_fmu_parameter(self, reference, found) || found->kind != kind) return no_variable(self, function, reference);
+  if (!rv_fmu_parameter(self, reference, found) || found->kind != kind) return none_to_get(self, function, reference);
   if (rv_valve_get_text(self->valve, found->name, word, longest_word) != RV_OK) return rv_fmu_fail_valve(self, function);
   return fmi3OK;
 }
@@ -110,7 +114,7 @@ static fmi3Status settle(instance *self, const char *function, int code) {
 /* A parameter of a kind that may be set now. */
 static bool is_open(instance *self, const char *function, fmi3ValueReference reference, int kind, parameter *found) {
   if (!rv_fmu_parameter(self, reference, found) || found->kind != kind)
-    no_variable(self, function, reference);
+    none_to_set(self, function, reference);
   else if (!(self->mode & before_steps))
     rv_fmu_fail(self, function, "%s is fixed when initialization mode is over", found->name);
   else
@@ -118,11 +122,13 @@ static bool is_open(instance *self, const char *function, fmi3ValueReference ref
   return false;
 }
 
+static const char *const input_name[n_inputs] = {"p_in", "p_out", "p_in_rate", "p_out_rate"};
+
 static fmi3Status set_real(instance *self, const char *function, fmi3ValueReference reference, double value) {
   parameter found;
   if (reference - first_input < n_inputs) {
     if (!isfinite(value))
-      return rv_fmu_fail(self, function, "an input must be a finite number: valueReference %u", (unsigned)reference);
+      return rv_fmu_fail(self, function, "%s must be a finite number", input_name[reference - first_input]);
     self->input[reference - first_input] = value;
     self->is_ready = self->mode == stepping;
     return fmi3OK;
