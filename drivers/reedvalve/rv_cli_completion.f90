@@ -8,6 +8,7 @@ module rv_cli_completion
    public :: print_bash, print_fish, print_zsh
 
    character(len=*), parameter :: other_words = "--help --version"
+   character(len=*), parameter :: fmi_versions = "2 3"
 
 contains
 
@@ -37,6 +38,7 @@ contains
       call say("    COMMAND) mapfile -t COMPREPLY < <(compgen -W ""$commands"" -- ""$word"") ;;")
       call say("    OPTION) mapfile -t COMPREPLY < <(compgen -W ""$options --help"" -- ""$word"") ;;")
       call say("    MODEL) mapfile -t COMPREPLY < <(compgen -W ""$models"" -- ""$word"") ;;")
+      call say("    V) mapfile -t COMPREPLY < <(compgen -W """//fmi_versions//""" -- ""$word"") ;;")
       call say("    DECK)")
       call say("        mapfile -t COMPREPLY < <(compgen -f -X '!*.nml' -- ""$word"")")
       call say("        compopt -o filenames -o plusdirs")
@@ -101,6 +103,8 @@ contains
          action = "_directories"
       case ("MODEL")
          action = "("//models()//")"
+      case ("V")
+         action = "("//fmi_versions//")"
       case ("COMMAND")
          action = "("//names()//")"
       case default
@@ -134,7 +138,7 @@ contains
 
       line = "-s "//trim(option%name(2:))
       if (option%name(2:2) == "-") line = "-l "//trim(option%name(3:))
-      if (option%value /= "") line = line//" -r "//fish_action(option%value)
+      if (option%value /= "") line = line//merge(" -r ", " -x ", option%value == "DIR")//fish_action(option%value)
       line = line//" -d "//quoted(option%help)
    end function fish_option
 
@@ -150,6 +154,8 @@ contains
          action = "-a '(__fish_complete_directories)'"
       case ("MODEL")
          action = "-a '"//models()//"'"
+      case ("V")
+         action = "-a '"//fmi_versions//"'"
       case ("COMMAND")
          action = "-a '"//names()//"'"
       case default

@@ -47,7 +47,7 @@ module rv_cli_table
 
    type(word_type), parameter :: options(7) = [ &
       & word_type("-o", "DIR", "folder for the results (default: the deck's name without .nml, here); fmu: its file"), &
-      & word_type("--fmi", "N", "version of FMI, 2 or 3 (default: 3)"), &
+      & word_type("--fmi", "V", "version of FMI, 2 or 3 (default: 3)"), &
       & word_type("--threads", "N", "threads to use (default: all processors; of an MPI rank: 1)"), &
       & word_type("--slice", "I/N", "run slice I of N only; slices may run at once, on many hosts; then: reedvalve merge DIR"), &
       & word_type("--resume", "", "go on with a run that was stopped or killed"), &

@@ -60,6 +60,9 @@ same "bash offers folders for -o" expected.txt found.txt
 echo squeeze >expected.txt
 bash_offers template s >found.txt
 same "bash offers models" expected.txt found.txt
+printf '%s\n' 2 3 >versions.txt
+bash_offers fmu my.nml --fmi '' >found.txt
+same "bash offers the versions of FMI" versions.txt found.txt
 
 if command -v fish >/dev/null; then
    # one letter or long: fish offers what begins as the word does
@@ -67,8 +70,12 @@ if command -v fish >/dev/null; then
       complete -C 'reedvalve run my.nml --'; complete -C 'reedvalve run my.nml -'" |
       cut -f 1 | grep -vx -- -h | sort -u >found.txt
    same "fish offers the options of run" run.txt found.txt
+   HOME=$work fish -c "source $prefix/share/fish/vendor_completions.d/reedvalve.fish
+      complete -C 'reedvalve fmu my.nml --fmi '" | cut -f 1 | sort >found.txt
+   same "fish offers the versions of FMI" versions.txt found.txt
 fi
 if command -v zsh >/dev/null; then
    zsh -n "$prefix/share/zsh/site-functions/_reedvalve" || failed=1
+   grep -q "'--fmi\[.*:V:(2 3)'" "$prefix/share/zsh/site-functions/_reedvalve" || { echo "  WRONG zsh's --fmi"; failed=1; }
 fi
 [ $failed = 0 ] && [ $checks -ge 8 ]
