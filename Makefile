@@ -12,7 +12,7 @@ help:
 	@echo "make test      build, then run all tests"
 	@echo "make build     build the program: $(reedvalve)"
 	@echo "make deb       Debian packages: build/deb/packages"
-	@echo "make bench     cases per second, beside CVODE, Boost.odeint and SciPy; quick=1: less of it, in a minute"
+	@echo "make bench     cases per second, beside other solvers; quick=1: less of it, in a minute"
 	@echo "make lint      check format and style of the sources; make format puts them right"
 	@echo "make debug-test, sanitize-test, valgrind-test    the tests in builds with more checks"
 	@echo "make deb-test  the packages in a Debian of their own"

@@ -116,9 +116,10 @@ def test_readme_deck_and_summary(tmp_path):
 
 
 def test_readme_modes(tmp_path):
-    (tmp_path / "my.nml").write_text("&run model = 'film' /\n", encoding="utf-8")
-    last = readme("$ reedvalve modes").splitlines()[1:]
-    assert shell("reedvalve modes my.nml", tmp_path).stdout.splitlines()[-len(last) :] == last
+    deck = re.search(r"For `film.nml`, which is\n`(&run .* /)`", (ROOT / "README.md").read_text("utf-8"))[1]
+    (tmp_path / "film.nml").write_text(deck, encoding="utf-8")
+    command, *last = readme("$ reedvalve modes").splitlines()
+    assert shell(command.removeprefix("$ "), tmp_path).stdout.splitlines()[-len(last) :] == last
 
 
 def test_readme_routes():
