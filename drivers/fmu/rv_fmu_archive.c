@@ -15,17 +15,17 @@ int rv_fmu_archive(int n, const char *const *name, const void *const *data, cons
                    size_t *length);
 void rv_fmu_release(void *bytes);
 
-/* Folder of what goes into every FMU, with a / at its end: below the program in a build tree, else where the installation
- * has it. 0: it is there. */
+/* Folder of what goes into every FMU, with a / at its end: below the program in a build tree, or beside that of MPI,
+ * else where the installation has it. 0: it is there. */
 int rv_fmu_folder(char *path, size_t size) {
-  static const char *const place[] = {"fmu/", RV_FMU_PLACE};
+  static const char *const place[] = {"fmu/", "../reedvalve/fmu/", RV_FMU_PLACE};
   char program[4096];
   ssize_t n = readlink("/proc/self/exe", program, sizeof program - 1);
   path[0] = '\0';
   if (n <= 0) return -1;
   program[n] = '\0';
   strrchr(program, '/')[1] = '\0';
-  for (int i = 0; i < 2; i++) {
+  for (size_t i = 0; i < sizeof place / sizeof *place; i++) {
     snprintf(path, size, "%s%s", program, place[i]);
     if (access(path, F_OK) == 0) return 0;
   }

@@ -718,6 +718,16 @@ def test_packing(tmp_path: Path) -> None:
     assert sorted(p.name for p in tmp_path.iterdir()) == ["again.fmu", "my.fmu", "my.nml"]
 
 
+def test_packing_by_the_program_of_mpi(tmp_path: Path) -> None:
+    """The same bytes, in the build tree too."""
+    program = Path(PROGRAM).parents[1] / "reedvalve_mpi" / "reedvalve_mpi"
+    if not program.exists():
+        pytest.skip("this build has no MPI")
+    mine = pack(tmp_path, deck_of("squeeze"), 3)
+    subprocess.run([program, "fmu", tmp_path / "valve.nml", "-o", tmp_path / "mpi.fmu"], check=True)
+    assert (tmp_path / "mpi.fmu").read_bytes() == mine.read_bytes()
+
+
 def test_trace(tmp_path: Path, fmi: int) -> None:
     """A deck with a measured trace takes it along, and starts from equilibrium."""
     (tmp_path / "p.csv").write_text("t_ms,p_diff_kpa\n0,5\n1,20\n2,20\n3,0\n")
