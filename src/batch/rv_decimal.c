@@ -6,15 +6,23 @@
  * where a half is a double: it and the sign of the error tell on which side of a tie the true value lies. So n is what
  * printf finds with long arithmetic, in all cases; what is too small or large for k goes to printf itself.
  * Needs rounding to nearest. */
+#include <inttypes.h>
 #include <math.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <string.h>
 
+/* where a column's field stands in the row before, and its number; nowhere yet while its length is 0 */
+typedef struct {
+   double x;
+   int64_t at;
+   int64_t length;
+} field_type;
+
 void rv_decimal_number(double x, int digits, char *text, int *length);
+void rv_decimal_fields(const double *x, int n, int digits, field_type *above, char *text, int64_t *used);
 void rv_decimal_whole(int64_t i, char *text, int *length);
 
-enum { FEWEST = 1, MOST = 15, ROOM = 40 };
+enum { FEWEST = 1, MOST = 15, LONGEST = 16, ROOM = 40 };
 
 static const double power[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,
                                1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
@@ -52,15 +60,22 @@ static uint64_t scaled(double x, int k)
    return error < 0.0 ? whole : whole + (whole & 1);
 }
 
-/* the digits of n, so many with leading zeros; two by two, for a division takes long */
-static void put_digits(uint64_t n, int digits, char *text)
+/* eight digits, with leading zeros */
+static void put_half(uint32_t n, char *text)
 {
-   while (digits > 1) {
-      digits -= 2;
-      memcpy(text + digits, pair[n % 100], 2);
-      n /= 100;
-   }
-   if (digits == 1) text[0] = (char)('0' + n);
+   uint32_t high = n / 10000, low = n % 10000;
+
+   memcpy(text, pair[high / 100], 2);
+   memcpy(text + 2, pair[high % 100], 2);
+   memcpy(text + 4, pair[low / 100], 2);
+   memcpy(text + 6, pair[low % 100], 2);
+}
+
+/* LONGEST digits of n, with leading zeros; in halves, so that divisions do not wait for each other */
+static void put_digits(uint64_t n, char *text)
+{
+   put_half((uint32_t)(n / 100000000u), text);
+   put_half((uint32_t)(n % 100000000u), text + LONGEST / 2);
 }
 
 /* the decimal exponent of x, or one less: from the binary one, of a positive number that is not subnormal */
@@ -98,7 +113,8 @@ static char *put_fraction(const char *digit, int whole, int used, char *text)
 /* Writes x with so many significant digits, zeros at the end dropped. `text` has ROOM bytes, `length` are used. */
 void rv_decimal_number(double x, int digits, char *text, int *length)
 {
-   char digit[2 * MOST], *next = text;
+   char room[LONGEST + MOST], *next = text;
+   const char *digit = room + LONGEST - digits;
    double size = fabs(x);
    uint64_t n;
    int exponent, used = digits;
@@ -111,8 +127,8 @@ void rv_decimal_number(double x, int digits, char *text, int *length)
    n = scaled(size, digits - 1 - exponent);
    if (n >= whole_power[digits]) n = scaled(size, digits - 1 - ++exponent);
    if (n >= whole_power[digits]) n = scaled(size, digits - 1 - ++exponent);   /* 9.99... became 10 */
-   memset(digit, '0', sizeof digit);
-   put_digits(n, digits, digit);
+   memset(room + LONGEST, '0', MOST);
+   put_digits(n, room);
    while (used > 1 && digit[used - 1] == '0') used--;
 
    if (signbit(x)) *next++ = '-';
@@ -120,7 +136,7 @@ void rv_decimal_number(double x, int digits, char *text, int *length)
       next = put_fraction(digit, 1, used, next);
       *next++ = 'e';
       *next++ = exponent < 0 ? '-' : '+';
-      put_digits((uint64_t)(exponent < 0 ? -exponent : exponent), 2, next);
+      memcpy(next, pair[exponent < 0 ? -exponent : exponent], 2);
       next += 2;
    } else if (exponent >= 0) {
       next = put_fraction(digit, exponent + 1, used, next);
@@ -132,12 +148,46 @@ void rv_decimal_number(double x, int digits, char *text, int *length)
    *length = (int)(next - text);
 }
 
+static int is_same(double x, double y)
+{
+   return memcmp(&x, &y, sizeof x) == 0;
+}
+
+/* Writes a comma and a number for each of n columns behind `used` bytes of text, no number for a NaN; what a column
+ * repeats is copied from the row before. There is room for n (ROOM + 1) bytes. */
+void rv_decimal_fields(const double *x, int n, int digits, field_type *above, char *text, int64_t *used)
+{
+   int i, length;
+
+   for (i = 0; i < n; i++) {
+      char *next = text + *used;
+
+      if (above[i].length > 0 && is_same(x[i], above[i].x)) {
+         memmove(next, text + above[i].at, ROOM);   /* of fixed length, which is quicker */
+      } else {
+         length = 0;
+         *next = ',';
+         if (!isnan(x[i])) rv_decimal_number(x[i], digits, next + 1, &length);
+         above[i].x = x[i];
+         above[i].length = length + 1;
+      }
+      above[i].at = *used;
+      *used += above[i].length;
+   }
+}
+
 /* Writes a whole number, i >= 0. `text` has ROOM bytes, `length` are used. */
 void rv_decimal_whole(int64_t i, char *text, int *length)
 {
+   char room[LONGEST];
    int64_t rest;
 
    *length = 1;
    for (rest = i; rest >= 10; rest /= 10) ++*length;
-   put_digits((uint64_t)i, *length, text);
+   if (*length > LONGEST) {
+      *length = snprintf(text, ROOM, "%" PRId64, i);
+      return;
+   }
+   put_digits((uint64_t)i, room);
+   memcpy(text, room + LONGEST - *length, (size_t)*length);
 }

@@ -2,11 +2,10 @@
 !>
 !> Making the text of a block's rows is the work: several threads may do that at a time, each for its own block.
 module rv_results_csv
-   use, intrinsic :: ieee_arithmetic, only : ieee_is_nan
-   use rv_kinds, only : wp, i8
+   use rv_kinds, only : wp
    use rv_error, only : error_type
    use rv_text, only : text_type
-   use rv_row_text, only : row_text
+   use rv_row_text, only : field_type, row_text
    use rv_file, only : file_type
    use rv_block, only : column_type, measure_columns, n_measures
    use rv_status, only : n_statuses, status_name
@@ -70,6 +69,7 @@ contains
       class(csv_writer), intent(in) :: self
       type(part_type), intent(in) :: part
       type(row_text), intent(inout) :: rows
+      type(field_type) :: input(size(self%input)), measure(n_measures)
       integer :: j, i
 
       call rows%clear()
@@ -78,14 +78,12 @@ contains
             call rows%add_whole(result%first + j - 1)
             do i = 1, size(self%input)
                if (size(self%input(i)%field) == 0) then
-                  call add_number(rows, part%input(i, j), input_digits)
+                  call rows%add_fields(part%input(i:i, j), input_digits, input(i:i))
                else
                   call rows%add(self%input(i)%field(nint(part%input(i, j)))%s)
                end if
             end do
-            do i = 1, n_measures
-               call add_number(rows, result%measure(i, j)*self%to_unit(i), measure_digits)
-            end do
+            call rows%add_fields(result%measure(:, j)*self%to_unit, measure_digits, measure)
             call rows%add(self%status%field(result%status(j) + 1)%s)
             call rows%add(",")
             if (len(result%message(j)%s) > 0) call rows%add(quoted(result%message(j)%s))
@@ -136,16 +134,6 @@ contains
          self%status%field(i)%s = ","//status_name(i - 1)
       end do
    end subroutine list_fields
-
-   !> A comma and a number; nothing for what did not happen.
-   pure subroutine add_number(rows, value, digits)
-      type(row_text), intent(inout) :: rows
-      real(wp), intent(in) :: value
-      integer, intent(in) :: digits
-
-      call rows%add(",")
-      if (.not. ieee_is_nan(value)) call rows%add_number(value, digits)
-   end subroutine add_number
 
    !> `text` as a CSV field, in quotes where it needs them.
    pure function quoted(text) result(field)

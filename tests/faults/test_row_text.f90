@@ -1,10 +1,11 @@
-!> Rows of numbers: the bytes of C's printf for every number, on both sides of every tie, whatever the size.
+!> Rows of numbers: the bytes of C's printf for every number, on both sides of every tie, whatever the size; and what a
+!> column repeats.
 program test_row_text
    use, intrinsic :: iso_c_binding, only : c_char, c_double, c_int, c_null_char, c_size_t
-   use, intrinsic :: ieee_arithmetic, only : ieee_negative_inf, ieee_quiet_nan, ieee_value
+   use, intrinsic :: ieee_arithmetic, only : ieee_is_nan, ieee_negative_inf, ieee_quiet_nan, ieee_value
    use check, only : suite_type
    use rv_kinds, only : wp, i8
-   use rv_row_text, only : row_text
+   use rv_row_text, only : field_type, row_text
    use rv_text, only : to_text
    implicit none
    type(suite_type) :: suite
@@ -22,6 +23,8 @@ program test_row_text
 
    call test_known()
    call test_room()
+   call test_whole()
+   call test_fields()
    call test_ties()
    call test_powers()
    call test_everywhere()
@@ -61,6 +64,53 @@ contains
       call rows%add_whole(0_i8)
       call suite%text("used again", rows%bytes(:rows%used), "0")
    end subroutine test_room
+
+   !> Whole numbers of every length.
+   subroutine test_whole()
+      type(row_text) :: rows
+      integer(i8) :: i
+      integer :: e
+
+      do e = 0, range(i)
+         i = 10_i8**e
+         call rows%clear()
+         call rows%add_whole(i)
+         call rows%add(" ")
+         call rows%add_whole(i - 1)
+         call suite%text("around 10^n", rows%bytes(:rows%used), to_text(i)//" "//to_text(i - 1))
+      end do
+      call rows%clear()
+      call rows%add_whole(huge(i))
+      call suite%text("the largest", rows%bytes(:rows%used), to_text(huge(i)))
+   end subroutine test_whole
+
+   !> Rows of some columns, which repeat their numbers now and then, are the rows of each number written anew.
+   subroutine test_fields()
+      integer, parameter :: columns = 7, rows = 20000
+      type(field_type) :: above(columns)
+      type(row_text) :: text, expected
+      real(wp) :: x(columns), pool(8)
+      integer :: i, j, state
+
+      pool = [0.0_wp, -0.0_wp, ieee_value(0.0_wp, ieee_quiet_nan), 1.0_wp/3.0_wp, -1.0e-300_wp/7.0_wp, 5.0_wp, &
+         & -1234567.0_wp/3.0_wp*1.0e14_wp, nearest(1.0_wp/3.0_wp, 1.0_wp)]
+      state = 1
+      do i = 1, rows
+         do j = 1, columns
+            state = modulo(state*1103 + 12345, 65536)
+            if (i == 1 .or. modulo(state/64, 3) == 0) x(j) = pool(1 + modulo(state/256, size(pool)))
+         end do
+         call text%add_whole(int(i, i8))
+         call text%add_fields(x(:2), 15, above(:2))
+         call text%add_fields(x(3:), 12, above(3:))
+         call expected%add_whole(int(i, i8))
+         do j = 1, columns
+            call expected%add(",")
+            if (.not. ieee_is_nan(x(j))) call expected%add_number(x(j), merge(15, 12, j <= 2))
+         end do
+      end do
+      call suite%true("numbers that repeat", text%bytes(:text%used) == expected%bytes(:expected%used))
+   end subroutine test_fields
 
    !> Halves of the last digit, which are doubles, and their neighbours.
    subroutine test_ties()
