@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 import os
+import shutil
 import subprocess
 import sys
 import time
@@ -114,8 +115,11 @@ class Bench:
         return float(out), times
 
     def run_program(self, deck: Path, threads: int) -> tuple[float, float]:
-        """The whole program, results written: seconds, and its largest resident memory [MiB]."""
-        words = [self.program, "run", deck, "-o", deck.with_suffix(""), "--threads", threads, "--force", "--quiet"]
+        """The whole program, results written anew: seconds, and its largest resident memory [MiB]."""
+        folder = deck.with_suffix("")
+        if folder.exists():
+            shutil.rmtree(folder)
+        words = [self.program, "run", deck, "-o", folder, "--threads", threads, "--quiet"]
         start = time.perf_counter()
         process = subprocess.Popen([str(word) for word in words], stdout=subprocess.DEVNULL)
         _, status, usage = os.wait4(process.pid, 0)
