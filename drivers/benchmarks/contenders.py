@@ -7,7 +7,6 @@ import os
 import shutil
 import subprocess
 import sys
-import time
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from itertools import pairwise
@@ -19,6 +18,17 @@ from sweep import LIMIT, all_cases, deck_text, largest_error, reference_times, s
 
 LADDER = tuple(mantissa * 10.0**-exponent for exponent in range(3, 10) for mantissa in (1, 0.7, 0.5, 0.3, 0.2, 0.15))
 PEERS = Path(__file__).parent / "peers"
+
+# Starts a program, and prints its seconds and largest resident memory [MiB]. An interpreter of its own, for a new
+# process counts the memory of the one that started it as its own.
+STOPWATCH = """
+import os, sys, time
+start = time.perf_counter()
+process = os.posix_spawn(sys.argv[1], sys.argv[1:], os.environ)
+_, status, usage = os.wait4(process, 0)
+print(time.perf_counter() - start, usage.ru_maxrss / 1024)
+sys.exit(os.waitstatus_to_exitcode(status))
+"""
 
 
 @dataclass
@@ -119,15 +129,9 @@ class Bench:
         folder = deck.with_suffix("")
         if folder.exists():
             shutil.rmtree(folder)
-        words = [self.program, "run", deck, "-o", folder, "--threads", threads, "--quiet"]
-        start = time.perf_counter()
-        process = subprocess.Popen([str(word) for word in words], stdout=subprocess.DEVNULL)
-        _, status, usage = os.wait4(process.pid, 0)
-        seconds = time.perf_counter() - start
-        process.returncode = os.waitstatus_to_exitcode(status)
-        if process.returncode != 0:
-            raise SystemExit(f"benchmark: reedvalve run failed with {process.returncode}")
-        return seconds, usage.ru_maxrss / 1024
+        program = [self.program, "run", deck, "-o", folder, "--threads", threads, "--quiet"]
+        seconds, memory = run([sys.executable, "-I", "-c", STOPWATCH, *program]).split()
+        return float(seconds), float(memory)
 
     def lanes(self, method: str | None, threads: int, **keys: object) -> Contender:
         """reedvalve's own, without files."""
