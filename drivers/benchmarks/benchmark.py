@@ -136,7 +136,7 @@ def work_precision(bench: Bench, extent: Extent) -> tuple[Table, dict[str, list[
                 lines[row.name].append((row.error, row.rate))
         table.rows.append([row.name, *cells])
     table.note = (f"CVODE on 256, SciPy on {extent.sample // 2} of the cases. "
-                  "The reference has eleven digits.")  # fmt: skip
+                  "The reference is good to 5e-10.")  # fmt: skip
     return table, lines
 
 
