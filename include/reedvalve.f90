@@ -623,10 +623,14 @@ contains
    !> Go on to t_end [s] while the inlet pressure goes straight from inlet(1) to inlet(2), the outlet's likewise [Pa].
    subroutine step(self, t_end, inlet, outlet, stat)
       class(reed_valve), intent(inout) :: self
-      real(c_double), intent(in) :: t_end, inlet(2), outlet(2)
+      real(c_double), intent(in) :: t_end, inlet(:), outlet(:)   ! of two
       integer, intent(out), optional :: stat
 
       if (.not. may_go(self, stat)) return
+      if (size(inlet) /= 2 .or. size(outlet) /= 2) then
+         call refuse(self, rv_bad_input, "a step needs two pressures of the inlet and two of the outlet", stat)
+         return
+      end if
       call tell(self, c_step(self%handle, t_end, inlet(1), inlet(2), outlet(1), outlet(2)), stat)
    end subroutine step
 

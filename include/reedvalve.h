@@ -2,14 +2,15 @@
  *
  * Results. Every function of type int returns RV_OK or another rv_code, but for the counts and rv_key_kind. Nothing is
  *    printed and the program is never stopped. After a call with a valve, rv_valve_message tells why it failed, or what
- *    it warns of.
+ *    it warns of; calls without a valve have their code alone.
  * Handles. An rv_valve is a handle, not an address to look behind. NULL, a closed handle, a copy of a closed one and any
  *    other pointer are RV_BAD_INPUT. What is made by rv_valve_new or rv_valve_new_deck is closed by rv_valve_free.
  * Ownership. Every other pointer is the caller's memory and is not kept after the call. Texts are NUL-terminated, at
  *    most 4096 bytes; those that are given back are cut to fit into the buffer of `size` bytes.
  * Units. Keys have the unit of decks, which their name ends in (film.gap_mm). Measures and traces have the unit their
  *    name ends in, too, as in summary.csv. Times, pressures, states and outputs of stepping are in SI: s, Pa, m, m/s, N,
- *    m3/s. What is not known or did not happen is NaN; so is a number that a call failed to tell.
+ *    m3/s. What is not known or did not happen is NaN; so is a number that a call failed to tell, and a
+ *    text is empty then. Arrays stay as they are.
  * Threads. Different valves may be used by different threads at once. One valve is for one thread at a time. A process
  *    that was forked from one whose sweeps ran on several threads runs its own on one.
  * Floating point. A caller who lets NaN or overflow stop the program (feenableexcept, -ffpe-trap) is not stopped by the
@@ -92,7 +93,8 @@ int rv_valve_message(rv_valve *self, char *buffer, size_t size);
 int rv_valve_set_real(rv_valve *self, const char *key, double value);
 int rv_valve_set_text(rv_valve *self, const char *key, const char *value);
 
-/* The value of a key: as set, or the default. */
+/* The value of a key: as set, or the default; NaN or empty where the default follows from other keys, as the key's help
+ * says. A logical is 1 or 0 as a number. */
 int rv_valve_get_real(rv_valve *self, const char *key, double *value);
 int rv_valve_get_text(rv_valve *self, const char *key, char *buffer, size_t size);
 
@@ -146,9 +148,10 @@ int rv_sweep(rv_valve *self, int n_keys, const char *const *keys, size_t n_cases
 
 /* ---- Stepping under the caller's pressures ---- */
 
-/* Begin at time t0 [s], at rest; with run.start = 'equilibrium' at the equilibrium under the first step's first pressures.
- * The tolerance solver.rtol is relative to the motion under the largest pressure difference of the valve's own pressure
- * history: set pressure.inlet_kpa and pressure.outlet_kpa to what is to be expected. */
+/* Begin at time t0 [s], which must be finite, else all stays as it is. The reed is at rest; with run.start =
+ * 'equilibrium' it is at the equilibrium under the first step's first pressures. The tolerance solver.rtol is relative to
+ * the motion under the largest pressure difference of the valve's own pressure history: set pressure.inlet_kpa and
+ * pressure.outlet_kpa to what is to be expected. */
 int rv_valve_begin(rv_valve *self, double t0);
 
 /* Go on to t_end [s]. Inlet and outlet pressure [Pa] go straight from p_in0 and p_out0 now to p_in1 and p_out1 at t_end.
@@ -156,7 +159,7 @@ int rv_valve_begin(rv_valve *self, double t0);
  * RV_NOT_CONVERGED or RV_DOMAIN, only rv_valve_state_restore or rv_valve_begin lead on. */
 int rv_valve_step(rv_valve *self, double t_end, double p_in0, double p_in1, double p_out0, double p_out1);
 
-/* An rv_out at the time reached. */
+/* An rv_out at the time reached. Steps do not hold RV_FILM_LOW against film.vapour_pressure_kpa, as whole cases do. */
 int rv_valve_output(rv_valve *self, int which, double *value);
 
 /* Degrees of freedom; and the state: time [s], displacement [m] and velocity [m/s] of each of them, and the length of step

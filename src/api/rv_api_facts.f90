@@ -1,6 +1,6 @@
 !> C API: what keys a valve has, and which version of the library this is. See reedvalve.h.
 module rv_api_facts
-   use, intrinsic :: iso_c_binding, only : c_int, c_ptr, c_size_t
+   use, intrinsic :: iso_c_binding, only : c_associated, c_int, c_ptr, c_size_t
    use rv_error, only : rv_bad_input
    use rv_api_call, only : rv_ok
    use rv_c_text, only : give_text
@@ -17,7 +17,7 @@ contains
       integer(c_size_t), value :: size
 
       call give_text(code_version, buffer, size)
-      code = rv_ok
+      code = merge(rv_ok, rv_bad_input, c_associated(buffer))
    end function rv_version_text
 
    integer(c_int) function rv_key_count() result(n) bind(C)
@@ -31,7 +31,7 @@ contains
 
       code = rv_bad_input
       call give_text("", buffer, size)
-      if (.not. is_key(i)) return
+      if (.not. (is_key(i) .and. c_associated(buffer))) return
       call give_text(trim(keys(i + 1)%group)//"."//trim(keys(i + 1)%name), buffer, size)
       code = rv_ok
    end function rv_key_name
@@ -43,7 +43,7 @@ contains
 
       code = rv_bad_input
       call give_text("", buffer, size)
-      if (.not. is_key(i)) return
+      if (.not. (is_key(i) .and. c_associated(buffer))) return
       call give_text(trim(keys(i + 1)%unit), buffer, size)
       code = rv_ok
    end function rv_key_unit
@@ -55,7 +55,7 @@ contains
 
       code = rv_bad_input
       call give_text("", buffer, size)
-      if (.not. is_key(i)) return
+      if (.not. (is_key(i) .and. c_associated(buffer))) return
       call give_text(trim(keys(i + 1)%help), buffer, size)
       code = rv_ok
    end function rv_key_help

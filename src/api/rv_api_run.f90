@@ -195,7 +195,7 @@ contains
 
       code = rv_bad_input
       call give_text("", buffer, size)
-      if (i < 0 .or. i > ubound(column, 1)) return
+      if (i < 0 .or. i > ubound(column, 1) .or. .not. c_associated(buffer)) return
       if (is_name) call give_text(trim(column(i)%name), buffer, size)
       if (.not. is_name) call give_text(trim(column(i)%unit), buffer, size)
       code = rv_ok

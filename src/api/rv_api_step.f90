@@ -41,11 +41,11 @@ contains
       call guard%put_aside()
       call begin_call(self, valve, code)
       if (.not. associated(valve)) return
-      valve%is_stepping = .false.
       if (.not. ieee_is_finite(t0)) then
          call refuse(valve, "the time to begin at must be a finite number", code)
          return
       end if
+      valve%is_stepping = .false.
       !$omp critical (rv_api_text)
       call valve%setup%check(warnings, error)
       !$omp end critical (rv_api_text)
@@ -161,6 +161,8 @@ contains
       real(c_double), pointer :: place(:)
       integer :: n
 
+      call put_nan(t)
+      call put_nan(next_step)
       call begin_stepping(self, valve, code)
       if (code /= rv_ok) return
       associate (stepper => valve%stepper)

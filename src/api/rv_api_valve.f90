@@ -99,7 +99,7 @@ contains
       call valve_of(self, valve)
       if (associated(valve)) then
          call give_lines(valve%message, buffer, size)
-         code = rv_ok
+         code = merge(rv_ok, rv_bad_input, c_associated(buffer))
       else
          call give_text(no_valve, buffer, size)
          code = rv_bad_input
@@ -188,6 +188,7 @@ contains
       type(float_guard) :: guard
 
       call guard%put_aside()
+      call give_text("", buffer, size)
       call begin_get(self, key, buffer, valve, name, code)
       if (code /= rv_ok) return
       !$omp critical (rv_api_text)

@@ -3,9 +3,20 @@ module rv_f77_text
    use, intrinsic :: iso_c_binding, only : c_char, c_null_char
    implicit none
    private
-   public :: to_c, to_f77
+   public :: as_text, to_c, to_f77
 
 contains
+
+   !> The same characters as one text.
+   pure function as_text(text) result(whole)
+      character(kind=c_char), intent(in) :: text(:)
+      character(len=size(text)) :: whole
+      integer :: i
+
+      do i = 1, size(text)
+         whole(i:i) = text(i)
+      end do
+   end function as_text
 
    !> The text without the blanks behind it.
    subroutine to_c(text, copy)

@@ -10,8 +10,9 @@ module rv_f77_valve
       & rv_valve_set_text, rv_valve_get_real, rv_valve_get_text
    use rv_api_call, only : rv_ok
    use rv_error, only : rv_bad_input
-   use rv_f77_text, only : to_c, to_f77
+   use rv_f77_text, only : as_text, to_c, to_f77
    use rv_handles, only : handle_of, number_of
+   use rv_text, only : lower
    implicit none
    private
    public :: f77_new, f77_deck, f77_free, f77_msg, f77_set, f77_setc, f77_get, f77_getc
@@ -149,25 +150,22 @@ contains
       character(kind=c_char), intent(out) :: name(name_length), unit(unit_length)
       integer(c_int), intent(out) :: ierr
       character(kind=c_char), target :: text(longest), word(longest)
-      character(kind=c_char) :: letter
       integer(c_int) :: from_zero
 
       text(1) = c_null_char
       word(1) = c_null_char
       from_zero = max(i, 0_c_int) - 1
-      letter = " "
-      if (list_length > 0) letter = list(1)
-      select case (letter)
-      case ("k", "K")
+      select case (lower(as_text(list)))
+      case ("keys")
          ierr = rv_key_name(from_zero, c_loc(text), size(text, kind=c_size_t))
          ierr = rv_key_unit(from_zero, c_loc(word), size(word, kind=c_size_t))
-      case ("m", "M")
+      case ("measures")
          ierr = rv_measure_name(from_zero, c_loc(text), size(text, kind=c_size_t))
          ierr = rv_measure_unit(from_zero, c_loc(word), size(word, kind=c_size_t))
-      case ("f", "F")
+      case ("facts")
          ierr = rv_fact_name(from_zero, c_loc(text), size(text, kind=c_size_t))
          ierr = rv_fact_unit(from_zero, c_loc(word), size(word, kind=c_size_t))
-      case ("t", "T")
+      case ("traces")
          ierr = rv_trace_name(from_zero, c_loc(text), size(text, kind=c_size_t))
          ierr = rv_trace_unit(from_zero, c_loc(word), size(word, kind=c_size_t))
       case default

@@ -13,7 +13,7 @@ module rv_setup
    use rv_deck_settings, only : default_by_kind, default_by_model
    use rv_cases, only : deck_type
    use rv_keys, only : keys, n_keys, find_key, full_name, default_value, from_si, to_si, value_text, real_key, &
-      & choice_key, text_key, key_run_title, key_film_fields_ms, key_film_gap_mm, key_pressure_file
+      & logical_key, choice_key, text_key, key_run_title, key_film_fields_ms, key_film_gap_mm, key_pressure_file
    use rv_key_value, only : read_value, odd_value, suggestion
    implicit none
    private
@@ -125,14 +125,19 @@ contains
       logical, intent(in) :: is_number                        !! of the caller's: no word for a key that takes words
       character(len=:), allocatable, intent(out) :: warning   !! empty: none
       type(error_type), allocatable, intent(out) :: error
-      character(len=:), allocatable :: trouble
+      character(len=:), allocatable :: trouble, spelt
       real(wp) :: value
       integer :: key
 
       warning = ""
       call find_any_key(name, key, error)
       if (allocated(error)) return
-      call read_value(key, word, any(keys(key)%kind == [choice_key, text_key]), value, trouble)
+      spelt = word
+      if (is_number .and. keys(key)%kind == logical_key) then   ! 1 and 0 are what get_number tells
+         if (word == "1") spelt = ".true."
+         if (word == "0") spelt = ".false."
+      end if
+      call read_value(key, spelt, any(keys(key)%kind == [choice_key, text_key]), value, trouble)
       if (is_number .and. keys(key)%kind == text_key) trouble = "it is a word: set it as text"
       if (key == key_film_fields_ms) trouble = no_fields
       if (trouble /= "") then

@@ -181,9 +181,11 @@ static void test_equilibrium(void) {
 static void test_wrong_uses(void) {
   rv_valve *valve = new_valve("squeeze");
   size_t bytes = 0;
-  double before, after;
+  double before, after = 3.0, next = 3.0;
   char state[400];
   FAILS(valve, rv_valve_step(valve, 1.0, 0.0, 0.0, 0.0, 0.0), RV_BAD_INPUT, "begin first");
+  FAILS(valve, rv_valve_state(valve, &after, NULL, NULL, &next), RV_BAD_INPUT, "begin first");
+  CHECK(isnan(after) && isnan(next));
   FAILS(valve, rv_valve_state_size(valve, &bytes), RV_BAD_INPUT, "begin first");
   FAILS(valve, rv_valve_output(valve, RV_VELOCITY, &after), RV_BAD_INPUT, "begin first");
   FAILS(valve, rv_valve_begin(valve, NAN), RV_BAD_INPUT, "finite");
@@ -203,6 +205,7 @@ static void test_wrong_uses(void) {
   FAILS(valve, rv_valve_output(valve, -1, &after), RV_BAD_INPUT, "no such output");
   CHECK(isnan(after));
   FAILS(valve, rv_valve_output(valve, 0, NULL), RV_BAD_INPUT, "NULL");
+  FAILS(valve, rv_valve_begin(valve, INFINITY), RV_BAD_INPUT, "finite");
   FAILS(valve, rv_valve_dofs(valve, NULL), RV_BAD_INPUT, "NULL");
   CHECK(output(valve, RV_DISPLACEMENT) == before);
   GOOD(valve, rv_valve_state_size(valve, &bytes));

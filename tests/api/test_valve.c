@@ -117,6 +117,11 @@ static void test_settings(void) {
   CHECK(strstr(text, "unusually large for mm") != NULL);
   GOOD(valve, rv_valve_get_real(valve, "pressure.event_ms", &value));
   CHECK(isnan(value));
+  for (int i = 1; i >= 0; i--) {
+    GOOD(valve, rv_valve_set_real(valve, "run.traces", i));
+    GOOD(valve, rv_valve_get_real(valve, "run.traces", &value));
+    CHECK(value == i);
+  }
   GOOD(valve, rv_valve_set_real(valve, "solver.max_steps", 1000.0));
   GOOD(valve, rv_valve_set_text(valve, "run.title", "It's a title"));
   GOOD(valve, rv_valve_get_text(valve, "run.title", text, sizeof text));
@@ -136,12 +141,15 @@ static void test_settings(void) {
   CHECK(rv_measure_unit(8, text, sizeof text) == RV_OK && strcmp(text, "N") == 0);
   CHECK(rv_trace_name(RV_LEAKAGE, text, sizeof text) == RV_OK && strcmp(text, "leakage_mm3_ms") == 0);
   CHECK(rv_measure_name(-1, text, sizeof text) == RV_BAD_INPUT);
+  CHECK(rv_measure_name(0, NULL, sizeof text) == RV_BAD_INPUT && rv_trace_unit(0, NULL, 0) == RV_BAD_INPUT);
+  CHECK(rv_key_name(0, NULL, sizeof text) == RV_BAD_INPUT && rv_key_unit(0, NULL, sizeof text) == RV_BAD_INPUT);
+  CHECK(rv_key_help(0, NULL, sizeof text) == RV_BAD_INPUT && rv_version_text(NULL, sizeof text) == RV_BAD_INPUT);
 }
 
 static void test_wrong_settings(void) {
   rv_valve *valve;
   double value = 0.0;
-  char text[10];
+  char text[10] = "old";
   CHECK(rv_valve_new(&valve) == RV_OK);
   FAILS(valve, rv_valve_set_real(valve, "film.gap_mm", -0.05), RV_BAD_INPUT, "film.gap_mm = -0.05: must be >= 0 (mm)");
   FAILS(valve, rv_valve_set_real(valve, "film.gap_mm", NAN), RV_BAD_INPUT, "NaN and infinity are not allowed");
@@ -161,7 +169,10 @@ static void test_wrong_settings(void) {
   CHECK(isnan(value));
   FAILS(valve, rv_valve_get_real(valve, "film.gap_mm", NULL), RV_BAD_INPUT, "NULL");
   FAILS(valve, rv_valve_get_text(valve, "film.gap_mm", NULL, 10), RV_BAD_INPUT, "NULL");
+  FAILS(valve, rv_valve_get_text(valve, NULL, text, sizeof text), RV_BAD_INPUT, "NULL");
+  CHECK(strcmp(text, "") == 0);
   FAILS(valve, rv_valve_get_text(valve, "film.gapp_mm", text, sizeof text), RV_BAD_INPUT, "film.gap_mm");
+  FAILS(valve, rv_valve_set_real(valve, "run.traces", 2.0), RV_BAD_INPUT, ".true. or .false.");
   GOOD(valve, rv_valve_get_real(valve, "film.gap_mm", &value));
   CHECK(value == 0.05); /* nothing of all that was set */
   GOOD(valve, rv_valve_set_real(valve, "reed.hole_diameter_mm", 7.0));
@@ -248,6 +259,7 @@ static void test_handles(void) {
   CHECK(strstr(text, "NULL") != NULL);
   CHECK(rv_valve_message(NULL, NULL, 0) == RV_BAD_INPUT);
   CHECK(rv_valve_new(&valve) == RV_OK);
+  CHECK(rv_valve_message(valve, NULL, 10) == RV_BAD_INPUT);
   copy = valve;
   CHECK(rv_valve_free(&valve) == RV_OK);
   FAILS(copy, rv_valve_run(copy), RV_BAD_INPUT, "closed");

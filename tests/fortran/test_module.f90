@@ -268,6 +268,10 @@ contains
       call valve%step(1.0e-3_wp, [0.0_wp, 0.0_wp], [0.0_wp, 0.0_wp], stat)
       call fails(valve, rv_bad_input, "begin first", stat)
       call valve%begin(0.0_wp)
+      call valve%step(1.0e-3_wp, [0.0_wp, 0.0_wp, 1.0_wp], [0.0_wp, 0.0_wp], stat)
+      call fails(valve, rv_bad_input, "two pressures", stat)
+      call valve%step(1.0e-3_wp, [0.0_wp, 0.0_wp], [0.0_wp], stat)
+      call fails(valve, rv_bad_input, "two pressures", stat)
       do k = 0, 39
          if (k == 20) call valve%save(kept)
          call step(valve, k)
