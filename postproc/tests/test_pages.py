@@ -123,9 +123,16 @@ def test_readme_modes(tmp_path):
 
 
 def test_readme_routes():
-    """Each link goes to a heading with a block of at most ten lines below it, which the test of its page runs."""
-    table = (ROOT / "README.md").read_text("utf-8").split("## In other programs")[1]
-    links = re.findall(r"\(docs/(\w+[.]md)#([-\w]+)\)", table)
+    """Blocks of at most ten lines, which stand on the pages too; each link goes to a heading with such a block below.
+
+    The tests of the pages run them.
+    """
+    section = (ROOT / "README.md").read_text("utf-8").split("## In other programs")[1].split("\n## ")[0]
+    shown = re.findall(r"^```(\w*)\n(.*?)^```$", section, re.DOTALL | re.MULTILINE)
+    pages = [block for page in ("c_api", "fortran", "python", "fmu") for block in blocks(f"docs/{page}.md")]
+    assert [language for language, _ in shown] == ["c", "fortran", "f77", "python", ""]
+    assert all(block in pages and len(block[1].splitlines()) <= 10 for block in shown)
+    links = re.findall(r"\(docs/(\w+[.]md)#([-\w]+)\)", section)
     assert len(links) >= 11
     for page, anchor in links:
         sections = re.split(r"^##+ ", (ROOT / "docs" / page).read_text("utf-8"), flags=re.MULTILINE)
