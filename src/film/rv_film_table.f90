@@ -157,35 +157,22 @@ contains
       call interpolate(size(x), self%lowest, self%highest, self%cubic, x, y, y_slope, area, area_slope)
    end subroutine look_up_all
 
-   !> look_up of n numbers, eight at a time: neighbours of like cases are mostly in one interval and share its cubics.
+   !> look_up of n numbers: the places in one loop of vector code, then the cubics.
    pure subroutine interpolate(n, lowest, highest, cubic, x, y, y_slope, area, area_slope)
       integer, intent(in) :: n
       real(wp), intent(in) :: lowest, highest
       real(wp), intent(in) :: cubic(8, intervals)
       real(wp), intent(in) :: x(n)
       real(wp), dimension(n), intent(out) :: y, y_slope, area, area_slope
-      integer, parameter :: side = 8
-      real(wp), dimension(side) :: s, per_x
-      integer(i8) :: k(side)
-      integer :: i, j, m
+      real(wp), dimension(n) :: s, per_x
+      integer(i8) :: k(n)
+      integer :: i
 
-      do i = 0, n - side, side
-         call find_interval(lowest, highest, x(i + 1:i + side), k, s, per_x)
-         if (all(k == k(1))) then
-            do j = 1, side
-               call cubics(cubic(:, k(1)), s(j), per_x(j), y(i + j), y_slope(i + j), area(i + j), area_slope(i + j))
-            end do
-         else
-            do j = 1, side
-               call cubics(cubic(:, k(j)), s(j), per_x(j), y(i + j), y_slope(i + j), area(i + j), area_slope(i + j))
-            end do
-         end if
+      do i = 1, n
+         call find_interval(lowest, highest, x(i), k(i), s(i), per_x(i))
       end do
-      m = modulo(n, side)
-      call find_interval(lowest, highest, x(n - m + 1:), k(:m), s(:m), per_x(:m))
-      do j = 1, m
-         i = n - m + j
-         call cubics(cubic(:, k(j)), s(j), per_x(j), y(i), y_slope(i), area(i), area_slope(i))
+      do i = 1, n
+         call cubics(cubic(:, k(i)), s(i), per_x(i), y(i), y_slope(i), area(i), area_slope(i))
       end do
    end subroutine interpolate
 
@@ -221,18 +208,18 @@ contains
       real(wp), intent(in) :: x
       integer(i8), intent(out) :: k
       real(wp), intent(out) :: s, per_x
-      integer(i8), parameter :: bias = 1023, log2_parts = 2
+      integer(i8), parameter :: bias = 1023, log2_parts = 2, lowest_bits = 2_i8**(52 - log2_parts) - 1
+      integer(i8), parameter :: one = transfer(1.0_wp, 0_i8)
       real(wp) :: inside
-      integer(i8) :: octave, part
+      integer(i8) :: bits
 
+      ! 2^octave (1 + fraction): the fraction's highest bits count the parts, the others are the place within one
       inside = merge(x, lowest, x > lowest)
       inside = merge(inside, highest, inside < highest)
-      octave = ishft(transfer(inside, 0_i8), -52) - bias   ! inside = 2^octave (1 + fraction)
-      per_x = transfer(ishft(bias + log2_parts - octave, 52), 0.0_wp)
-      s = inside*per_x - real(parts, wp)
-      part = int(s, i8)
-      s = s - real(part, wp)
-      k = (octave - first_octave)*parts + part + 1
+      bits = transfer(inside, 0_i8)
+      k = shiftr(bits, 52 - log2_parts) - (bias + first_octave)*parts + 1
+      s = transfer(ior(shiftl(iand(bits, lowest_bits), int(log2_parts)), one), 0.0_wp) - 1.0_wp
+      per_x = transfer(shiftl(2*bias + log2_parts - shiftr(bits, 52), 52), 0.0_wp)
    end subroutine find_interval
 
 end module rv_film_table
