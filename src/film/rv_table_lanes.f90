@@ -61,6 +61,7 @@ contains
       self%outlet = valve%outlet
       self%gap = valve%gap
       allocate(self%has_film(w), source=.true.)
+      self%explicit_up_to = 5.0_wp
       self%tip = [1.0_wp]
       allocate(self%lowest_pressure(w), source=huge(1.0_wp))
       self%inverse_mass = 1.0_wp/(valve%static_mass + valve%static_added_mass)

@@ -32,10 +32,6 @@ module rv_lanes
    integer, parameter :: patience = 10
    integer, parameter :: step_stuck = -1000   !! beside the integrators' flags
 
-   !> Stiffest lane, as stiffness_ratio has it, that method_auto still integrates explicitly: about where both took equally
-   !> long for the reed of the paper, at gaps of 0.05 mm (rtol 1e-4) to 0.03 mm (1e-6).
-   real(wp), parameter :: explicit_up_to = 10.0_wp
-
    !> How to integrate.
    type :: lane_settings
       real(wp) :: t_end = 0.0_wp             !! [s]
@@ -303,7 +299,7 @@ contains
       integer :: flag
 
       outcome%is_explicit = settings%method == method_explicit &
-         & .or. settings%method == method_auto .and. maxval(problem%lanes%stiffness_ratio()) <= explicit_up_to
+         & .or. settings%method == method_auto .and. maxval(problem%lanes%stiffness_ratio()) <= problem%lanes%explicit_up_to
       h = settings%first_step
       if (.not. h > 0.0_wp) h = merge(0.6_wp, 4.0_wp, outcome%is_explicit)*first_step(problem)
       flag = step_done

@@ -20,6 +20,7 @@ module rv_valve_lanes
       real(wp), allocatable :: inlet(:), outlet(:) !! amplitudes of the pressure history [Pa] or [-], (width)
       real(wp), allocatable :: gap(:)              !! g0 [m], (width)
       logical, allocatable :: has_film(:)          !! (width)
+      real(wp) :: explicit_up_to = 10.0_wp         !! stiffness_ratio where explicit and implicit steps cost alike, as measured
       real(wp), allocatable :: tip(:)              !! tip displacement per unit of each q, (dofs)
       character(len=:), allocatable :: closure     !! a sentence of the film that was closed last: where
       real(wp), allocatable :: lowest_pressure(:)  !! lowest film pressure seen [Pa], huge if none was, (width)

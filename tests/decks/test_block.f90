@@ -56,7 +56,6 @@ contains
       call suite%true("without film the gap does not matter", agree(r%measure(:, 13:16), r%measure(:, 17:20)))
    end subroutine results_in_deck_order
 
-   !> One lane an integrator, two, some, all of them.
    !> Each group of lanes chooses for itself under `auto`, and the results say what.
    subroutine method_is_told()
       type(block_result) :: r
@@ -65,10 +64,13 @@ contains
       call suite%true("explicit at 0.2 mm, implicit at 0.03 mm", all(nint(r%fact(fact_method, :)) == [2, 1]))
       call run_all(suite, "&solver method = 'auto' /~&sweep key = 'film.gap_mm', values = 0.2, 0.03 /", r)
       call suite%true("together both implicit", all(nint(r%fact(fact_method, :)) == 1))
+      call run_all(suite, "&run model = 'squeeze', 'film_table' /~&solver method = 'auto' /~&film gap_mm = 0.055 /", r)
+      call suite%true("the table's stages are dear: implicit from wider gaps on", all(nint(r%fact(fact_method, :)) == [2, 1]))
       call run_all(suite, "&solver method = 'explicit' /~&film gap_mm = 0.2 /", r)
       call suite%true("explicit as asked for", all(nint(r%fact(fact_method, :)) == 2))
    end subroutine method_is_told
 
+   !> One lane an integrator, two, some, all of them.
    subroutine widths_agree()
       type(block_result) :: r, alone
       type(deck_type) :: deck
