@@ -11,6 +11,10 @@
 #SBATCH --requeue
 #SBATCH --open-mode=append
 set -u
+if [ $# != 2 ]; then
+   echo "ranks.sh: usage: sbatch --ntasks=16 ranks.sh DECK FOLDER" >&2
+   exit 2
+fi
 deck=$1
 folder=$2
 

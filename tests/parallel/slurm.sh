@@ -115,6 +115,16 @@ holds "an array and its merge are over" over "$last" 60
 ended "$last" COMPLETED
 same whole sliced
 
+# an array of the slices that are missing
+job=$(sbatch --parsable --array=1,3,4,6-7 --cpus-per-task=1 "$scripts/array.sh" deck.nml mended 7)
+holds "an array without slices 2 and 5 is over" over "$job" 60
+expect 3 '5 of 16 blocks are not finished \(2, 5, 9, 12, 16\)' merge mended
+job=$(sbatch --parsable --array=2,5 --cpus-per-task=1 "$scripts/array.sh" deck.nml mended 7)
+holds "an array of slices 2 and 5 is over" over "$job" 60
+ended "$job" COMPLETED
+expect 0 'none failed' merge mended
+same whole mended
+
 # a slice whose time is up stops with whole blocks and gets in line again
 sweep_deck 4000 1.0e-10 | sed "s/block_size = 4000/block_size = 20/" >long.nml
 job=$(sbatch --parsable --array=1-1 --cpus-per-task=2 --output=long.out "$scripts/array.sh" long.nml long)
