@@ -18,6 +18,7 @@ module rv_columns
       character(len=8) :: unit = ""         !! 1: dimensionless
       real(wp) :: to_unit = 1.0_wp
       character(len=112) :: long_name = ""
+      character(len=24) :: meanings = ""    !! words that the values 1, 2, ... stand for; empty: a number
    end type column_type
 
    real(wp), parameter :: milli = 1.0e3_wp  !! SI to mm and ms
@@ -54,7 +55,8 @@ contains
          & column_type("wet_frequency_hz", "Hz", 1.0_wp, "undamped natural frequency in the fluid, without film"), &
          & column_type("lowest_film_kpa", "kPa", 1.0e-3_wp, &
          & "lowest pressure in the film, at the ends of the steps (film models)"), &
-         & column_type("solver_method", "1", 1.0_wp, "how the case was integrated: 1 implicit, 2 explicit")]
+         & column_type("solver_method", "1", 1.0_wp, "how the case was integrated: 1 implicit, 2 explicit", &
+         & "implicit explicit")]
    end function fact_columns
 
    !> The traces.

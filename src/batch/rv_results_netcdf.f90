@@ -69,6 +69,7 @@ module rv_results_netcdf
       procedure, private :: put_mesh
       procedure, private :: describe
       procedure, private :: describe_flags
+      procedure, private :: describe_words
       procedure, private :: put_input
       procedure, private :: put_messages
    end type netcdf_writer
@@ -271,6 +272,7 @@ contains
          self%fact_var(i) = new_variable(self, trim(self%fact(i)%name), nf90_double, [self%case_dim], &
             & [min(cases, chunk_cases)])
          call self%describe(self%fact_var(i), trim(self%fact(i)%unit), trim(self%fact(i)%long_name))
+         if (self%fact(i)%meanings /= "") call self%describe_words(self%fact_var(i), trim(self%fact(i)%meanings))
       end do
    end subroutine define_columns
 
@@ -393,6 +395,18 @@ contains
       call self%note(nf90_put_att(self%file, var, attribute, value), attribute)
       call self%note(nf90_put_att(self%file, var, "flag_meanings", trim(words)), "flag_meanings")
    end subroutine describe_flags
+
+   !> CF flags of a real variable, as real as itself: its values 1, 2, ... stand for the words.
+   subroutine describe_words(self, var, words)
+      class(netcdf_writer), intent(inout) :: self
+      integer, intent(in) :: var
+      character(len=*), intent(in) :: words       !! with one blank between them
+      integer :: i, n
+
+      n = 1 + count([(words(i:i) == " ", i=1, len(words))])
+      call self%note(nf90_put_att(self%file, var, "flag_values", [(real(i, wp), i=1, n)]), "flag_values")
+      call self%note(nf90_put_att(self%file, var, "flag_meanings", words), "flag_meanings")
+   end subroutine describe_words
 
    subroutine put_input(self, i, value, first)
       class(netcdf_writer), intent(inout) :: self

@@ -9,6 +9,7 @@ program test_results
    use rv_error, only : error_type
    use rv_file, only : read_whole_file
    use rv_kinds, only : wp, i8
+   use rv_lanes, only : method_explicit, method_implicit
    use rv_manifest, only : input_type, kind_choice, kind_number, kind_text, manifest_type
    use rv_parts, only : part_type
    use rv_results_csv, only : csv_writer
@@ -120,8 +121,33 @@ contains
       call suite%text("deck", attribute(file, "deck"), manifest%deck)
       call suite%text("effective values", attribute(file, "effective_values"), "")
       call suite%true("libraries", index(attribute(file, "library_versions"), "SUNDIALS ") == 1)
+      call test_flags(file)
       call suite%equal("close it", nf90_close(file), nf90_noerr)
    end subroutine test_netcdf
+
+   !> Codes are explained as CF has it: values of the variable's own type, and a word for each.
+   subroutine test_flags(file)
+      integer, intent(in) :: file
+      character(len=13), parameter :: name(3) = [character(len=13) :: "model", "status", "solver_method"]
+      character(len=400) :: meanings
+      real(wp) :: value(2)
+      integer :: i, var, kind, of_values, length
+
+      do i = 1, size(name)
+         var = number_of(file, trim(name(i)))
+         of_values = -1
+         call suite%equal(trim(name(i)), nf90_inquire_variable(file, var, xtype=kind), nf90_noerr)
+         call suite%equal("its flags", nf90_inquire_attribute(file, var, "flag_values", xtype=of_values, len=length), nf90_noerr)
+         call suite%equal("are of its type", of_values, kind)
+         meanings = ""
+         call suite%equal("their meanings", nf90_get_att(file, var, "flag_meanings", meanings), nf90_noerr)
+         call suite%equal("as many", 1 + count([(meanings(kind:kind) == " ", kind=1, len_trim(meanings))]), length)
+      end do
+      call suite%text("methods", trim(meanings), "implicit explicit")
+      call suite%equal("their values", nf90_get_att(file, var, "flag_values", value), nf90_noerr)
+      call suite%close("implicit", value(1), real(method_implicit, wp), 0.0_wp, 0.0_wp)
+      call suite%close("explicit", value(2), real(method_explicit, wp), 0.0_wp, 0.0_wp)
+   end subroutine test_flags
 
    !> Messages here and there among many cases, in blocks whose ends are not those of anything in the file.
    subroutine test_messages()
