@@ -171,15 +171,25 @@ contains
       call new_manifest(deck, manifest)
       room = expected_room(manifest)
       call say("About "//duration_text(cost/real(min(threads, blocks), wp))//" with " &
-         & //counted(int(min(threads, blocks), i8), "thread")//" and "//size_text(room%netcdf) &
-         & //" for results.nc, estimated from a few cases run just now.")
-      if (manifest%has_csv) call say(size_text(room%csv)//" for summary.csv and, until both are written, " &
-         & //size_text(room%parts)//" for parts.")
-      if (.not. manifest%has_csv) call say("No summary.csv; until results.nc is written, "//size_text(room%parts)//" for parts.")
+         & //counted(int(min(threads, blocks), i8), "thread")//" to compute, estimated from a few cases run just now." &
+         & //" Writing comes on top" &
+         & //trim(merge(": run.compress makes it slower.", ".                              ", manifest%compress > 0)))
+      call say(size_text(room%netcdf)//" for results.nc and "//csv_text(manifest, room)//", and "//size_text(room%parts) &
+         & //" for parts until "//trim(merge("both are written.", "it is written.   ", manifest%has_csv)))
       if (blocks < threads .and. cost > long_run) call say("A block runs on one thread: run.block_size = " &
          & //to_text((deck%case_count() + threads - 1)/threads)//" or less would keep " &
          & //counted(int(threads, i8), "thread")//" busy.")
    end function cases_command
+
+   !> "408 kB for summary.csv"
+   pure function csv_text(manifest, room) result(text)
+      type(manifest_type), intent(in) :: manifest
+      type(room_type), intent(in) :: room
+      character(len=:), allocatable :: text
+
+      text = "no summary.csv"
+      if (manifest%has_csv) text = size_text(room%csv)//" for summary.csv"
+   end function csv_text
 
    !> Read a deck and tell its faults and warnings; exit_fine if it can be run.
    integer function load_deck(arguments, deck) result(status)

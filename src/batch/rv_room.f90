@@ -36,12 +36,14 @@ contains
       if (manifest%has_csv) room%csv = manifest%cases*(bytes_row + bytes_number*numbers)
    end function expected_room
 
-   !> Fail, with the estimate, if the folder's disk has no room for `share` of the parts and, if wanted, the results.
-   subroutine check_room_for_run(path, manifest, share, with_results, error)
+   !> Fail, with the estimate and advice, if the folder's disk has no room for `share` of the parts and, if wanted, the
+   !> results.
+   subroutine check_room_for_run(path, manifest, share, with_results, begun, error)
       character(len=*), intent(in) :: path        !! of the folder
       type(manifest_type), intent(in) :: manifest
       real(wp), intent(in) :: share               !! of the parts still to be written, 0 to 1
       logical, intent(in) :: with_results
+      logical, intent(in) :: begun                !! there are parts: an edited deck could not go on with them
       type(error_type), allocatable, intent(out) :: error
       type(room_type) :: room
       integer(i8) :: free, parts, results
@@ -52,11 +54,47 @@ contains
       results = merge(room%netcdf + room%csv, 0_i8, with_results)
       free = free_bytes(path)
       if (free < 0 .or. parts + results <= free) return
-      advice = "choose another folder with -o"
-      if (size(manifest%time) > 0) advice = "store fewer samples (run.trace_dt_ms) or no traces, or "//advice
-      call fail(error, rv_io, "'"//path//"' has no room for this run: about "//size_text(parts)//" of parts and "// &
-         & size_text(results)//" of results will be there at the same time, and "//size_text(free)//" are free; "//advice)
+      if (begun) then
+         advice = "free some, or take the folder to another disk, and go on there with --resume"
+      else
+         advice = smaller_run(manifest, free - parts, with_results)//"choose another folder with -o"
+      end if
+      call fail(error, rv_io, "'"//path//"' has no room for this run: about "//needs(parts, results)//", and " &
+         & //size_text(free)//" are free; "//advice)
    end subroutine check_room_for_run
+
+   !> "2 MB of parts and 1 MB of results at the same time", or what there is of it.
+   pure function needs(parts, results) result(text)
+      integer(i8), intent(in) :: parts, results
+      character(len=:), allocatable :: text
+
+      if (results == 0) then
+         text = size_text(parts)//" of parts"
+      else if (parts == 0) then
+         text = size_text(results)//" of results"
+      else
+         text = size_text(parts)//" of parts and "//size_text(results)//" of results at the same time"
+      end if
+   end function needs
+
+   !> What to change in the deck, each followed by "or"; only what makes the results fit, but for fewer samples, which
+   !> make all of it smaller.
+   pure function smaller_run(manifest, free, with_results) result(text)
+      type(manifest_type), intent(in) :: manifest
+      integer(i8), intent(in) :: free             !! for the results
+      logical, intent(in) :: with_results
+      character(len=:), allocatable :: text
+      type(manifest_type) :: smaller
+
+      text = ""
+      if (size(manifest%time) > 0) text = "store fewer samples (run.trace_dt_ms) or no traces, or "
+      if (.not. with_results) return
+      smaller = manifest
+      smaller%compress = 9
+      if (expected_size(smaller) > free) return
+      if (manifest%compress == 0) text = text//"write a smaller results.nc (run.compress = 4), or "
+      if (manifest%has_csv) text = text//"write no summary.csv (run.csv = 'never'), or "
+   end function smaller_run
 
    !> "152 MB"
    pure function size_text(bytes) result(text)

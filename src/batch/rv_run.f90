@@ -146,7 +146,7 @@ contains
 
       left = min(outcome%own_blocks, outcome%blocks - outcome%finished_blocks)
       call check_room_for_run(folder%path, manifest, real(left, wp)/real(max(1, outcome%blocks), wp), &
-         & .not. options%is_slice(), error)
+         & .not. options%is_slice(), outcome%finished_blocks > 0, error)
    end subroutine check_disk
 
    !> What the counters of the crew say.

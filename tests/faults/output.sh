@@ -26,7 +26,10 @@ expect 1 'more failed; all of them are in .one/results.nc' run none.nml -o one -
 fails "no summary is written, and none of the run before is left" test -e one/summary.csv
 holds "the log says so" grep -q 'no summary.csv' one/run.log
 expect 1 '^Results: one/results.nc$' run none.nml -o one --force
-expect 0 'No summary.csv' cases none.nml
+expect 0 'for results.nc and no summary.csv, and .* for parts until it is written' cases none.nml
+expect 0 'to compute, estimated from a few cases run just now. Writing comes on top.$' cases plain.nml
+expect 0 'Writing comes on top: run.compress makes it slower.$' cases small.nml
+holds "it tells the room of each file" grep -Eq '^[0-9]+ kB for results.nc and [0-9]+ kB for summary.csv, and [0-9]+ kB for parts until both are written.$' out.txt
 deck "csv = 'always'" >always.nml
 expect 1 '^Results: one/summary.csv and one/results.nc$' run always.nml -o one --force
 holds "it is there again" test -e one/summary.csv

@@ -68,6 +68,7 @@ program test_room
    use rv_file, only : write_whole_file
    use rv_kinds, only : wp, i8
    use rv_manifest, only : manifest_type
+   use rv_posix, only : free_bytes
    use rv_room, only : check_room_for_run, expected_room, room_type, size_text
    use rv_run, only : run_deck, run_options, run_outcome
    use rv_text, only : to_text
@@ -170,16 +171,47 @@ contains
          & //" &sweep key = 'pressure.inlet_kpa', from = 5, to = 40, count = 1000000 /" &
          & //" &sweep key = 'film.gap_mm', from = 0.05, to = 0.3, count = 1000 /", deck)
       call new_manifest(deck, manifest)
-      call check_room_for_run(".", manifest, 1.0_wp, .true., error)
-      call suite%fails("petabytes", error, "no room for this run: about 16000 TB of parts and 16000 TB of results")
+      call check_room_for_run(".", manifest, 1.0_wp, .true., .false., error)
+      call suite%fails("petabytes", error, "no room for this run: about 16000 TB of parts and 16000 TB of results at the same")
       call suite%true("with advice", index(error%message, "run.trace_dt_ms") > 0)
-      call check_room_for_run(".", manifest, 0.0_wp, .false., error)
+      call suite%true("but none that is too little", index(error%message, "run.compress") == 0)
+      call check_room_for_run(".", manifest, 1.0_wp, .false., .false., error)
+      call suite%fails("a slice has parts alone", error, "about 16000 TB of parts, and ")
+      call check_room_for_run(".", manifest, 0.0_wp, .false., .false., error)
       call suite%no_error("nothing is left to write", error)
-      call check_room_for_run(".", manifest, 0.0_wp, .true., error)
-      call suite%fails("only results are left to write", error, "about 0 B of parts")
-      call check_room_for_run("no/such/folder", manifest, 1.0_wp, .true., error)
+      call check_room_for_run(".", manifest, 0.0_wp, .true., .true., error)
+      call suite%fails("only results are left to write", error, "about 16000 TB of results, and ")
+      call suite%true("which no edited deck could", index(error%message, "go on there with --resume") > 0 &
+         & .and. index(error%message, "run.") == 0)
+      call check_room_for_run("no/such/folder", manifest, 1.0_wp, .true., .false., error)
       call suite%no_error("a disk that does not say", error)
+      call test_advice()
    end subroutine test_refusal
+
+   !> Results for which the disk is a little too small can be written smaller.
+   subroutine test_advice()
+      type(deck_type) :: deck
+      type(manifest_type) :: manifest
+      type(room_type) :: room
+      type(error_type), allocatable :: error
+      integer(i8) :: free
+
+      call read_text("advised", "&run csv = 'always' /", deck)
+      call new_manifest(deck, manifest)
+      manifest%cases = 1000000
+      room = expected_room(manifest)
+      free = free_bytes(".")
+      manifest%cases = nint(0.9_wp*real(free, wp)/real(room%netcdf, wp)*1.0e6_wp, i8)
+      call check_room_for_run(".", manifest, 0.0_wp, .true., .false., error)
+      call suite%fails("results that are too large by their summary", error, "no room for this run")
+      call suite%true("can be compressed", index(error%message, "run.compress = 4") > 0)
+      call suite%true("or have none", index(error%message, "run.csv = 'never'") > 0)
+      manifest%has_csv = .false.
+      manifest%compress = 4
+      manifest%cases = 3*manifest%cases
+      call check_room_for_run(".", manifest, 0.0_wp, .true., .false., error)
+      call suite%fails("results that are small already", error, "are free; choose another folder with -o")
+   end subroutine test_advice
 
    subroutine test_words()
       call suite%text("bytes", size_text(12_i8), "12 B")
