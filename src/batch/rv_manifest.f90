@@ -5,7 +5,7 @@
 module rv_manifest
    use, intrinsic :: iso_fortran_env, only : int32
    use rv_kinds, only : wp, i8
-   use rv_error, only : error_type, fail, rv_io
+   use rv_error, only : error_type, fail, rv_bad_input, rv_io
    use rv_text, only : text_type, to_text
    use rv_checksum, only : crc32_text
    use rv_field_mesh, only : field_mesh
@@ -80,6 +80,8 @@ contains
    end function manifest_to_text
 
    !> Read what to_text wrote. The checksum of the file is not its business: a manifest is written whole or not at all.
+   !>
+   !> Codes of `error`: rv_bad_input for the manifest of another version, rv_io for what is no whole manifest.
    subroutine manifest_from_text(self, text, error)
       class(manifest_type), intent(out) :: self
       character(len=*), intent(in) :: text
@@ -89,10 +91,14 @@ contains
 
       at = 1
       call next_record(text, at, name, value)
-      if (name /= first_record .or. value /= format_version) then
-         call fail(error, rv_io, "it was not written by this version of reedvalve")
-         return
+      if (len(text) == 0) then
+         call fail(error, rv_io, "it is empty")
+      else if (name /= first_record) then
+         call fail(error, rv_io, "it is damaged")
+      else if (value /= format_version) then
+         call fail(error, rv_bad_input, "it was written by another version of reedvalve")
       end if
+      if (allocated(error)) return
       self%code_version = record_value(text, "code_version")
       self%deck_name = record_value(text, "deck_name")
       self%deck = record_value(text, "deck")

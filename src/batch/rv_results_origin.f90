@@ -1,10 +1,10 @@
 !> Where a results.nc comes from, read from the file itself.
 module rv_results_origin
    use, intrinsic :: iso_fortran_env, only : int8
-   use netcdf, only : nf90_close, nf90_get_att, nf90_get_var, nf90_global, nf90_inq_dimid, nf90_inq_varid, &
+   use netcdf, only : nf90_close, nf90_enotatt, nf90_get_att, nf90_get_var, nf90_global, nf90_inq_dimid, nf90_inq_varid, &
       & nf90_inquire_attribute, nf90_inquire_dimension, nf90_noerr, nf90_nowrite, nf90_open, nf90_strerror
    use rv_kinds, only : i8
-   use rv_error, only : error_type, fail, rv_io
+   use rv_error, only : error_type, fail, rv_bad_input, rv_io
    use rv_status, only : status_ok
    use rv_manifest, only : manifest_type
    implicit none
@@ -16,6 +16,8 @@ module rv_results_origin
 contains
 
    !> Deck, effective values and version that made the file, and how its cases ended.
+   !>
+   !> Codes of `error`: rv_bad_input for a NetCDF file of something else, rv_io for one that cannot be read.
    subroutine read_origin(path, origin, cases, failed, error)
       character(len=*), intent(in) :: path
       type(manifest_type), intent(out) :: origin   !! what `difference` compares
@@ -34,7 +36,11 @@ contains
          call count_failures(file, cases, failed, flag)
          ignored = nf90_close(file)
       end if
-      if (flag /= nf90_noerr) call fail(error, rv_io, "cannot read '"//path//"': "//trim(nf90_strerror(flag)))
+      if (flag == nf90_enotatt) then
+         call fail(error, rv_bad_input, "'"//path//"' was not written by reedvalve")
+      else if (flag /= nf90_noerr) then
+         call fail(error, rv_io, "cannot read '"//path//"': "//trim(nf90_strerror(flag)))
+      end if
    end subroutine read_origin
 
    !> `flag`: nothing is done after a failure.

@@ -92,7 +92,7 @@ contains
          & //difference//"; choose another folder with -o, or start anew with --force")
    end subroutine check_parts
 
-   !> Results are there already: fine if they are of this deck, else refused.
+   !> Results are there already: fine if they are of this deck, else refused; also if that cannot be seen.
    subroutine check_results(folder, plan, outcome, error)
       type(results_folder), intent(in) :: folder
       type(plan_type), intent(in) :: plan
@@ -105,6 +105,11 @@ contains
       call read_origin(folder%file(netcdf_name), found, cases, failed, error)
       if (allocated(error)) then
          difference = error%message
+         if (error%code == rv_io) then
+            error%message = "cannot tell whether the results in '"//folder%path//"' are of this run: "//difference &
+               & //"; put that right, choose another folder with -o, or replace them with --force"
+            return
+         end if
          deallocate(error)
       else
          difference = plan%manifest%difference(found)
@@ -144,7 +149,14 @@ contains
       call read_whole_file(path, text, found, error)
       if (allocated(error) .or. .not. found) return
       call manifest%from_text(text, error)
-      if (allocated(error)) error%message = "cannot use '"//path//"': "//error%message
+      if (.not. allocated(error)) return
+      error%message = "cannot use '"//path//"': "//error%message
+      if (error%code == rv_io) then
+         error%message = error%message//"; remove it, and run ... --resume makes it anew and keeps the blocks that are " &
+            & //"finished, or start anew with run ... --force"
+      else
+         error%message = error%message//"; go on with that version, or start anew with run ... --force"
+      end if
    end subroutine read_manifest
 
 end module rv_run_plan

@@ -18,6 +18,12 @@ expect 0 'none failed' run deck.nml -o copy --force
 same whole copy
 rm copy/results.nc
 expect 2 "'copy' holds results" run deck.nml -o copy
+unseen="cannot tell whether the results in 'copy' are of this run: cannot read 'copy/results.nc'"
+expect 3 "$unseen: No such file.* or replace them with --force" run deck.nml -o copy --resume
+head -c 20000 whole/results.nc >copy/results.nc
+expect 3 "$unseen: NetCDF: HDF error" run deck.nml -o copy --resume
+expect 0 'none failed' run deck.nml -o copy --force
+same whole copy
 
 # an unfinished run
 stop_midway part KILL 2
@@ -67,10 +73,15 @@ done
 rm -rf trial
 cp -r part2 trial
 echo damaged >trial/parts/manifest
-expect 3 "cannot use 'trial/parts/manifest'" run deck.nml -o trial --resume
-expect 3 "cannot use 'trial/parts/manifest'" merge trial
+expect 3 "cannot use 'trial/parts/manifest': it is damaged; remove it" run deck.nml -o trial --resume
+expect 3 "cannot use 'trial/parts/manifest': it is damaged; remove it" merge trial
+: >trial/parts/manifest
+expect 3 "it is empty; remove it, and run ... --resume" run deck.nml -o trial --resume
+cp -r trial dropped
+expect 0 'none failed' run deck.nml -o dropped --force
+same whole dropped
 rm trial/parts/manifest
-expect 0 'none failed' run deck.nml -o trial --resume
+expect 0 'none failed.* of them were run now, the others before' run deck.nml -o trial --resume
 same whole trial
 
 # a file the deck names has changed
@@ -123,5 +134,10 @@ fi
 if [ "$program" != none ]; then
    expect 3 "cannot make the folder 'locked/new': Permission denied" run deck.nml -o locked/new
    expect 3 "cannot lock 'locked/run.lock': Permission denied" run deck.nml -o locked
+   cp -r whole hidden
+   chmod 777 hidden
+   chmod 666 hidden/run.log
+   chmod 000 hidden/results.nc
+   expect 3 "cannot tell whether .* cannot read 'hidden/results.nc': Permission denied" run deck.nml -o hidden --resume
 fi
 finish

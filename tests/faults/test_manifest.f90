@@ -1,7 +1,7 @@
 !> The manifest: read as written, and what it says of two runs that do not belong together.
 program test_manifest
    use check, only : suite_type
-   use rv_error, only : error_type
+   use rv_error, only : error_type, rv_bad_input, rv_io
    use rv_kinds, only : wp, i8
    use rv_manifest, only : input_type, kind_choice, kind_number, kind_text, manifest_type
    use rv_text, only : to_text
@@ -61,7 +61,13 @@ contains
       end do
       call suite%equal("cut texts that are taken for the whole", taken, 0)
       call back%from_text("something else", error)
-      call suite%fails("another file", error, "not written by this version")
+      call suite%fails("another file", error, "it is damaged")
+      call back%from_text("", error)
+      call suite%fails("no bytes", error, "it is empty")
+      call suite%equal("which is trouble with a file", error%code, rv_io)
+      call back%from_text(text(:index(text, new_line("a")))//"1"//text(index(text, new_line("a")) + 2:), error)
+      call suite%fails("another format", error, "it was written by another version of reedvalve")
+      call suite%equal("which is sound", error%code, rv_bad_input)
    end subroutine test_damage
 
    subroutine test_difference()

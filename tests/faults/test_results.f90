@@ -3,10 +3,10 @@ program test_results
    use, intrinsic :: ieee_arithmetic, only : ieee_is_nan, ieee_quiet_nan, ieee_value
    use, intrinsic :: iso_fortran_env, only : int8
    use check, only : suite_type
-   use netcdf, only : nf90_close, nf90_get_att, nf90_get_var, nf90_global, nf90_inq_varid, nf90_inquire, &
-      & nf90_inquire_attribute, nf90_inquire_variable, nf90_noerr, nf90_nowrite, nf90_open
+   use netcdf, only : nf90_close, nf90_create, nf90_get_att, nf90_get_var, nf90_global, nf90_inq_varid, nf90_inquire, &
+      & nf90_inquire_attribute, nf90_inquire_variable, nf90_netcdf4, nf90_noerr, nf90_nowrite, nf90_open
    use rv_block, only : n_facts, n_measures, n_traces
-   use rv_error, only : error_type
+   use rv_error, only : error_type, rv_bad_input, rv_io
    use rv_file, only : read_whole_file
    use rv_kinds, only : wp, i8
    use rv_lanes, only : method_explicit, method_implicit
@@ -195,6 +195,7 @@ contains
       type(manifest_type) :: origin
       type(error_type), allocatable :: error
       integer(i8) :: n, failed
+      integer :: file
 
       call read_origin("test.nc", origin, n, failed, error)
       call suite%no_error("where test.nc comes from", error)
@@ -203,6 +204,12 @@ contains
       call suite%equal("its failures", int(failed), 2)
       call read_origin("test.csv", origin, n, failed, error)
       call suite%fails("where a CSV comes from", error, "cannot read 'test.csv'")
+      call suite%equal("which is trouble with a file", error%code, rv_io)
+      call suite%equal("a file of another program", nf90_create("foreign.nc", nf90_netcdf4, file), nf90_noerr)
+      call suite%equal("close it", nf90_close(file), nf90_noerr)
+      call read_origin("foreign.nc", origin, n, failed, error)
+      call suite%fails("where that comes from", error, "'foreign.nc' was not written by reedvalve")
+      call suite%equal("which is sound", error%code, rv_bad_input)
       call suite%true("the size is foreseen", expected_size(manifest) > 0_i8)
    end subroutine test_origin
 
