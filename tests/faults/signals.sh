@@ -15,6 +15,27 @@ for signal in 'INT 1' 'TERM 2' 'HUP 2'; do
    same whole part
 done
 
+# once more stops at once: nothing is finished, the lock is left, and the run can be resumed
+sed 's/block_size = [0-9]*/block_size = 65536/' deck.nml >one_block.nml
+for pause in 0.1 0.2 0.3; do   # for the block to begin
+   rm -rf twice
+   "$program" run one_block.nml -o twice --threads 1 >out.txt 2>err.txt &
+   victim=$!
+   while kill -0 $victim 2>/dev/null && [ ! -e twice/parts/manifest ]; do :; done
+   sleep $pause
+   kill -INT $victim
+   while kill -0 $victim 2>/dev/null && ! grep -q 'once more stops at once' err.txt; do :; done
+   kill -INT $victim 2>/dev/null
+   wait $victim
+   got=$?
+   [ $got != 130 ] || break
+done
+if [ $got = 130 ]; then pass "a second Ctrl-C ends it by the signal"; else wrong "exit status $got instead of 130"; fi
+holds "the lock is left" test -e twice/run.lock
+fails "the block under way is lost" sh -c "ls twice/parts | grep 'part$'"
+expect 0 'none failed' run one_block.nml -o twice --resume
+fails "the lock is gone" test -e twice/run.lock
+
 # under nohup a lost connection stops nothing
 own=$program
 printf '#!/bin/sh\ntrap "" HUP\nexec "%s" "$@"\n' "$own" >deaf
