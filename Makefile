@@ -46,7 +46,7 @@ test: build
 	@echo "== tests: a few minutes; what they say comes when they are done"
 	@$(MAKE) --no-print-directory --keep-going --jobs=2 --output-sync=target test-programs test-python
 test-programs:
-	@ctest --preset release
+	@ctest --preset release; status=$$?; tools/skipped build/release; exit $$status
 test-python:
 	@REEDVALVE=$(abspath $(reedvalve)) $(venv)/python -m pytest -q postproc drivers/benchmarks drivers/python drivers/fmu
 
@@ -54,7 +54,7 @@ wheel-test: bootstrap
 	@drivers/python/tests/wheel.sh
 
 %-test: checks build-%
-	ctest --preset $*
+	ctest --preset $*; status=$$?; tools/skipped build/$*; exit $$status
 
 bench: build
 	@drivers/benchmarks/peers/build build/peers install
