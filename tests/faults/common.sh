@@ -83,6 +83,13 @@ sweep_deck() {
 END
 }
 
+# mixed_deck CASES [RTOL]: the same of films on both sides of where 'auto' changes the method, computed and tabulated; a
+# group has few lanes, so that a block has groups of either method
+mixed_deck() {
+   sweep_deck "$@" | sed -e "s/'traditional', 'squeeze'/'squeeze', 'film_table'/" \
+      -e "s/&solver/& method = 'auto', width = 4,/" -e 's/0.05, 0.06, 0.08/0.02, 0.03, 0.04/'
+}
+
 # milliseconds DECK: processor time of a run on one thread, which other work on this machine does not change
 milliseconds() {
    ("$program" run "$1" -o timed --force --quiet --threads 1 >out.txt 2>err.txt; times) \
@@ -90,11 +97,12 @@ milliseconds() {
    rm -rf timed
 }
 
-# slow_count LENGTH: for sweep_deck, as many cases in a block as make a run on one thread take so many milliseconds
+# slow_count LENGTH [MAKER]: for sweep_deck, or another maker of decks, as many cases in a block as make a run on one
+# thread take so many milliseconds
 slow_count() {
    count=20
    for attempt in 1 2; do
-      sweep_deck $count >try.nml
+      ${2:-sweep_deck} $count >try.nml
       length=$(milliseconds try.nml)
       [ $((4 * length)) -lt $((3 * $1)) ] || break
       count=$((count * $1 / (length + 1) + 1))

@@ -2,7 +2,7 @@
 # unbroken run.
 # sh kills.sh PROGRAM RTOL [MPI_PROGRAM MPIEXEC]
 . "$(dirname "$0")/ranks_common.sh"
-sweep_deck "$(slow_count 400)" >deck.nml
+mixed_deck "$(slow_count 400 mixed_deck)" >deck.nml
 length=$(milliseconds deck.nml)
 expect 0 'none failed' run deck.nml -o whole
 seed=$(od -An -N2 -tu2 /dev/urandom | tr -d ' ')

@@ -1,7 +1,7 @@
 # MPI ranks: the same words and the same bytes as on threads; what fails for one ends all; stopped ranks can be resumed.
 # sh ranks.sh PROGRAM RTOL MPI_PROGRAM MPIEXEC
 . "$(dirname "$0")/ranks_common.sh"
-sweep_deck 20 1.0e-6 | sed '1s/block_size/traces = .true., trace_dt_ms = 1.0, block_size/' >deck.nml
+mixed_deck 20 1.0e-6 | sed '1s/block_size/traces = .true., trace_dt_ms = 1.0, block_size/' >deck.nml
 expect 0 'none failed' run deck.nml -o one --threads 1
 expect 0 'none failed' run deck.nml -o two --threads 2
 same one two

@@ -1,9 +1,14 @@
 # Slices of a run: in any order, at once, killed, stopped, resumed as something else; always the same bytes.
 . "$(dirname "$0")/../faults/common.sh"
-sweep_deck 20 1.0e-6 >deck.nml
+mixed_deck 20 1.0e-6 >deck.nml
 sweep_deck 21 1.0e-6 >other.nml
 sweep_deck "$(slow_count 600)" >slow.nml
 expect 0 'none failed' run deck.nml -o whole
+for method in implicit explicit; do
+   sed "s/'auto'/'$method'/" deck.nml >$method.nml
+   expect 0 'none failed' run $method.nml
+   fails "not all of it is $method" cmp whole/summary.csv $method/summary.csv
+done
 
 # words
 for words in 0/7 8/7 -1/7 1/0 1 /7 1/ 1/2/3 a/b 1.5/2 ' 1/2' 1000001/1000001; do
