@@ -1,11 +1,25 @@
 !> Words of a deck or a CSV file as numbers, and the reason why one is none.
 module rv_number
-   use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
+   use, intrinsic :: iso_c_binding, only : c_char, c_double, c_int, c_int64_t
    use rv_kinds, only : wp, i8
    use rv_text, only : lower
    implicit none
    private
    public :: parse_real, parse_integer, parse_logical, tidy
+
+   ! What C finds; all else is no number.
+   integer(c_int), parameter :: is_fine = 0, is_too_large = 2, is_too_small = 3
+
+   interface
+      !> Uses the last byte of `word` for itself.
+      pure subroutine c_real(word, length, value, verdict) bind(C, name="rv_number_real")
+         import :: c_char, c_double, c_int, c_int64_t
+         character(kind=c_char), intent(inout) :: word(*)
+         integer(c_int64_t), value :: length   !! without the last
+         real(c_double), intent(out) :: value
+         integer(c_int), intent(out) :: verdict
+      end subroutine c_real
+   end interface
 
 contains
 
@@ -15,28 +29,32 @@ contains
       real(wp), intent(out) :: value         !! 0 on trouble
       character(len=:), allocatable, intent(out) :: trouble
       character(len=:), allocatable :: number
-      integer :: stat
+      integer(c_int) :: verdict
 
-      value = 0.0_wp
-      trouble = ""
-      number = lower(word)
-      if (number == "") then
-         trouble = "a number is missing"
-      else if (is_one_of(unsigned(number), ["nan", "inf"]) .or. unsigned(number) == "infinity" &
-         & .or. index(unsigned(number), "nan(") == 1) then
-         trouble = "NaN and infinity are not allowed"
-      else if (.not. is_real(number)) then
-         trouble = "not a number"
-      else
-         read(number, *, iostat=stat) value
-         if (stat /= 0 .or. .not. ieee_is_finite(value)) then
-            trouble = "too large for a double-precision number"
-         else if (abs(value) <= 0.0_wp .and. scan(mantissa(number), "123456789") > 0) then
-            trouble = "too small for a double-precision number"
-         end if
-      end if
-      if (trouble /= "") value = 0.0_wp
+      allocate(character(len=len(word) + 1) :: number)
+      number(:len(word)) = word
+      call c_real(number, len(word, c_int64_t), value, verdict)
+      select case (verdict)
+      case (is_fine)
+         trouble = ""
+      case (is_too_large)
+         trouble = "too large for a double-precision number"
+      case (is_too_small)
+         trouble = "too small for a double-precision number"
+      case default
+         trouble = why_no_number(lower(word))
+      end select
    end subroutine parse_real
+
+   pure function why_no_number(word) result(trouble)
+      character(len=*), intent(in) :: word   !! in lower case
+      character(len=:), allocatable :: trouble
+
+      trouble = "not a number"
+      if (is_one_of(unsigned(word), ["nan", "inf"]) .or. unsigned(word) == "infinity" &
+         & .or. index(unsigned(word), "nan(") == 1) trouble = "NaN and infinity are not allowed"
+      if (word == "") trouble = "a number is missing"
+   end function why_no_number
 
    !> Read a whole number.
    pure subroutine parse_integer(word, value, trouble)
@@ -85,31 +103,6 @@ contains
       scale = 10.0_wp**shift
       tidy = anint(x*scale)/scale
    end function tidy
-
-   !> [sign] digits [. digits] [e|d [sign] digits], with a digit before or after the point.
-   pure logical function is_real(word)
-      character(len=*), intent(in) :: word   !! in lower case
-      character(len=:), allocatable :: digits
-      integer :: letter, point
-
-      is_real = .false.
-      letter = scan(word, "ed")
-      if (letter > 0) then
-         digits = unsigned(word(letter + 1:))
-         if (len(digits) == 0 .or. verify(digits, "0123456789") > 0) return
-      end if
-      digits = unsigned(mantissa(word))
-      point = index(digits, ".")
-      if (point > 0) digits = digits(:point - 1)//digits(point + 1:)
-      is_real = len(digits) > 0 .and. verify(digits, "0123456789") == 0
-   end function is_real
-
-   pure function mantissa(word) result(head)
-      character(len=*), intent(in) :: word   !! in lower case
-      character(len=:), allocatable :: head
-
-      head = word(:scan(word//"e", "ed") - 1)
-   end function mantissa
 
    pure function unsigned(word) result(tail)
       character(len=*), intent(in) :: word

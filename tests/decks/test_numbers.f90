@@ -24,8 +24,12 @@ contains
       character(len=*), parameter :: good(8) = [character(len=10) :: &
          & "1", "-1.5", "+.5", "5.", "1e3", "1.5D-03", "2.5E+2", "007"]
       real(wp), parameter :: meant(8) = [1.0_wp, -1.5_wp, 0.5_wp, 5.0_wp, 1000.0_wp, 0.0015_wp, 250.0_wp, 7.0_wp]
-      character(len=*), parameter :: bad(14) = [character(len=10) :: &
-         & ".", "e5", "1e", "1e+", "1.2.3", "--1", "1+5", "0x10", "1_wp", "1,5", "1.0q0", "+", "1e5.0", "d"]
+      ! some of these are numbers to strtod or to Fortran's read
+      character(len=*), parameter :: bad(20) = [character(len=10) :: &
+         & ".", "e5", "1e", "1e+", "1.2.3", "--1", "1+5", "0x10", "1_wp", "1,5", "1.0q0", "+", "1e5.0", "d", &
+         & "0x1p3", "-0X.8", "nano", "1/", "1e5d5", "2*1.5"]
+      character(len=*), parameter :: no_finite(6) = [character(len=10) :: &
+         & "nan", "NaN", "-nan(0x1)", "inf", "+Inf", "-infinity"]
       character(len=:), allocatable :: trouble
       real(wp) :: x
       integer :: i
@@ -39,8 +43,21 @@ contains
          call parse_real(trim(bad(i)), x, trouble)
          call suite%text(trim(bad(i)), trouble, "not a number")
       end do
+      call parse_real(" 1.5", x, trouble)
+      call suite%text("a blank before it", trouble, "not a number")
+      call parse_real("1.5"//achar(0), x, trouble)
+      call suite%text("a NUL behind it", trouble, "not a number")
+      do i = 1, size(no_finite)
+         call parse_real(trim(no_finite(i)), x, trouble)
+         call suite%text(trim(no_finite(i)), trouble, "NaN and infinity are not allowed")
+         call suite%close(trim(no_finite(i)), x, 0.0_wp, 0.0_wp, 0.0_wp)
+      end do
+      call parse_real(repeat("0", 300)//"1."//repeat("3", 300), x, trouble)
+      call suite%close("600 digits", x, 4.0_wp/3.0_wp, 0.0_wp, 0.0_wp)
       call parse_real("", x, trouble)
       call suite%text("nothing", trouble, "a number is missing")
+      call parse_real("4.9e-324", x, trouble)
+      call suite%close("the smallest", x, tiny(1.0_wp)*epsilon(1.0_wp), 0.0_wp, 0.0_wp)
       call parse_real("1.8e308", x, trouble)
       call suite%text("1.8e308", trouble, "too large for a double-precision number")
       call parse_real("1e99999999999999999999", x, trouble)
