@@ -41,7 +41,7 @@ contains
    !> Go to the next row; false after the last.
    logical function next_row(self)
       class(csv_reader), intent(inout) :: self
-      integer :: first, last, length
+      integer :: first, last, length, comment
 
       next_row = .true.
       do while (self%at <= len(self%text))
@@ -52,7 +52,8 @@ contains
          self%at = last + 2
          self%line = self%line + 1
          if (verify(self%text(first:last), blanks) == 0) cycle
-         if (index(adjustl(self%text(first:last)), "#") == 1) cycle
+         comment = first + verify(self%text(first:last), " ") - 1
+         if (self%text(comment:comment) == "#") cycle
          call split(self, first, last)
          return
       end do

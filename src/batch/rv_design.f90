@@ -133,22 +133,33 @@ contains
       character(len=*), intent(in) :: path
       real(wp), intent(out) :: value(:)
       logical, intent(in) :: is_first   !! odd values are told in the first row only
-      character(len=:), allocatable :: trouble, shown
+      character(len=:), allocatable :: trouble
       integer :: i, key, place
 
       do i = 1, size(value)
          key = draft%deck%design_key(i)
-         call read_value(key, reader%word(i), keys(key)%kind /= real_key, value(i), trouble)
-         shown = full_name(key)//" = "//clip(reader%word(i), 40)//": "
-         if (trouble /= "") then
-            call draft%faults%add(path, reader%line, reader%field(i)%column, shown//trouble)
-         else if (key == key_pressure_file) then
-            call name_trace(draft, reader%word(i), path, reader%line, reader%field(i)%column, place)
-            value(i) = real(place, wp)
-         else if (is_first .and. odd_value(key, value(i)) /= "") then
-            call draft%faults%warn(path, reader%line, reader%field(i)%column, shown//odd_value(key, value(i)))
-         end if
+         associate (word => reader%text(reader%field(i)%first:reader%field(i)%last), column => reader%field(i)%column)
+            call read_value(key, word, keys(key)%kind /= real_key, value(i), trouble)
+            if (trouble /= "") then
+               call draft%faults%add(path, reader%line, column, shown(key, word)//trouble)
+            else if (key == key_pressure_file) then
+               call name_trace(draft, word, path, reader%line, column, place)
+               value(i) = real(place, wp)
+            else if (is_first) then
+               trouble = odd_value(key, value(i))
+               if (trouble /= "") call draft%faults%warn(path, reader%line, column, shown(key, word)//trouble)
+            end if
+         end associate
       end do
    end subroutine read_row
+
+   !> "film.gap_mm = -0.05: "
+   function shown(key, word)
+      integer, intent(in) :: key
+      character(len=*), intent(in) :: word
+      character(len=:), allocatable :: shown
+
+      shown = full_name(key)//" = "//clip(word, 40)//": "
+   end function shown
 
 end module rv_design

@@ -354,10 +354,18 @@ contains
    pure integer function choice_index(key, word) result(i)
       integer, intent(in) :: key
       character(len=*), intent(in) :: word
+      character(len=len(keys%choices)) :: rest
+      integer :: length
 
-      do i = choice_count(key), 1, -1
-         if (choice_name(key, i) == lower(word)) return
+      rest = keys(key)%choices
+      i = 0
+      do while (rest /= "")
+         i = i + 1
+         length = scan(rest//" ", " ") - 1
+         if (rest(:length) == lower(word)) return
+         rest = adjustl(rest(length + 1:))
       end do
+      i = 0
    end function choice_index
 
 end module rv_keys

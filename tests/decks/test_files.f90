@@ -162,7 +162,6 @@ contains
 
    subroutine design_faults()
       character(len=*), parameter :: deck = "&design file = 'plan.csv' /"
-
       call says(suite, "design, no file", "&design /", &
          & "@:1:1: &design: design.file must name a CSV file: file = 'plan.csv'")
       call says(suite, "design, missing file", "&design file = 'none.csv' /", &
@@ -200,6 +199,14 @@ contains
          & //"did you mean 'squeeze'?")
       call says(suite, "design, models twice", "&run model = 'squeeze', 'traditional' /~"//deck, &
          & "plan.csv:1:1: 'run.model': the deck lists several models in &run; name them in one place only")
+      call write_file("plan.csv", lines("film.gap_mm , ""film.k_s""~# a comment~ +0.1,1d-3~~""2e-1"",.5~0x1,0x1p-3" &
+         & //"~inf,1 2~1e999, -~"))
+      call says(suite, "design, forms of numbers", deck, "plan.csv:6:1: film.gap_mm = 0x1: not a number; its " &
+         & //"unit is mm, write the number alone~plan.csv:6:5: film.k_s = 0x1p-3: not a number~" &
+         & //"plan.csv:7:1: film.gap_mm = inf: NaN and infinity are not allowed~" &
+         & //"plan.csv:7:5: film.k_s = 1 2: not a number~" &
+         & //"plan.csv:8:1: film.gap_mm = 1e999: too large for a double-precision number~" &
+         & //"plan.csv:8:8: film.k_s = -: not a number")
    end subroutine design_faults
 
    subroutine no_decks()
