@@ -162,7 +162,7 @@ contains
 
    subroutine add_introduction(build)
       type(text_builder), intent(inout) :: build
-      character(len=*), parameter :: text(28) = [character(len=108) :: &
+      character(len=*), parameter :: text(29) = [character(len=108) :: &
          & "# Keys of a deck", &
          & "", &
          & "This page is generated from the key table in `src/batch/rv_keys.f90`. `reedvalve template` prints a deck", &
@@ -178,7 +178,8 @@ contains
          & "models are swept by a list in `run.model`.", &
          & "", &
          & "File names are relative to the folder of the deck. The files are CSV: columns separated by commas,", &
-         & "decimals with a point, lines that start with `#` are comments.", &
+         & "decimals with a point, lines that start with `#` are comments. A file has at most 268435456 bytes", &
+         & "(256 MiB).", &
          & "", &
          & "* A pressure trace has a header with `t_ms` (or `t_s`, `t_us`) and either `p_in_kpa` and `p_out_kpa` or", &
          & "  `p_diff_kpa` (or `_pa`, `_bar`, `_mpa`). Time must rise from row to row, and no step may be more than", &

@@ -162,6 +162,8 @@ contains
 
    subroutine design_faults()
       character(len=*), parameter :: deck = "&design file = 'plan.csv' /"
+      integer :: unit
+
       call says(suite, "design, no file", "&design /", &
          & "@:1:1: &design: design.file must name a CSV file: file = 'plan.csv'")
       call says(suite, "design, missing file", "&design file = 'none.csv' /", &
@@ -207,6 +209,13 @@ contains
          & //"plan.csv:7:5: film.k_s = 1 2: not a number~" &
          & //"plan.csv:8:1: film.gap_mm = 1e999: too large for a double-precision number~" &
          & //"plan.csv:8:8: film.k_s = -: not a number")
+      open(newunit=unit, file="huge.csv", access="stream", form="unformatted", status="replace", action="write")
+      write(unit, pos=268435457_int64) "x"
+      close(unit)
+      call says(suite, "design, too large", "&design file = 'huge.csv' /", "@:1:16: design.file: 'huge.csv' has " &
+         & //"268435457 bytes, more than the 268435456 such a file may have")
+      open(newunit=unit, file="huge.csv", status="old")
+      close(unit, status="delete")
    end subroutine design_faults
 
    subroutine no_decks()
