@@ -1,6 +1,6 @@
 !> `reedvalve` on MPI ranks: mpirun -n 4 reedvalve_mpi run deck.nml takes the same words and writes the same bytes.
 program reedvalve_mpi
-   use rv_cli_output, only : complain, end_program, status_of
+   use rv_cli_output, only : complain, end_program, exit_failed, status_of
    use rv_cli_words, only : obey_words
    use rv_error, only : error_type
    use rv_posix, only : keep_standard_files
@@ -21,6 +21,7 @@ program reedvalve_mpi
       ! ranks that end early may take the others along
       call crew%share(error)
    end if
+   if (crew%is_broken) status = exit_failed
    call crew%finish()
    call end_program(status)
 end program reedvalve_mpi

@@ -377,3 +377,33 @@ int64_t rv_posix_process_mark(void)
    for (const char *next = host; *next != '\0'; next++) hash = (hash ^ (unsigned char)*next) * 16777619u;
    return (int64_t)(((uint64_t)hash << 32) | (uint32_t)getpid());
 }
+
+/* Process or host of the mark of a process. */
+static uint32_t half_of(int64_t mark, int upper)
+{
+   return (uint32_t)((uint64_t)mark >> (upper ? 32 : 0));
+}
+
+int rv_posix_is_neighbour(int64_t mark)
+{
+   return half_of(mark, 1) == half_of(rv_posix_process_mark(), 1);
+}
+
+/* Has this process of this host ended? It may not have been waited for, which only Linux tells. */
+int rv_posix_is_gone(int64_t mark)
+{
+   char path[40], text[512], *state;
+   FILE *file;
+   size_t got;
+   pid_t process = (pid_t)half_of(mark, 0);
+
+   if (kill(process, 0) != 0) return errno == ESRCH;
+   snprintf(path, sizeof path, "/proc/%ld/stat", (long)process);
+   file = fopen(path, "r");
+   if (file == NULL) return 0;
+   got = fread(text, 1, sizeof text - 1, file);
+   fclose(file);
+   text[got] = '\0';
+   state = strrchr(text, ')');   /* behind the program's name */
+   return state != NULL && (strncmp(state, ") Z", 3) == 0 || strncmp(state, ") X", 3) == 0);
+}

@@ -11,7 +11,7 @@ module rv_posix
    public :: make_folder, remove_folder, remove_file, rename_path, claim_name, sync_folder, list_folder
    public :: lock_file, unlock_file, lock_ours, lock_held, lock_none
    public :: catch_signals, signal_seen, keep_standard_files, is_terminal, terminal_width
-   public :: seconds, nap, utc_date, host_name, process_number, process_mark, get_reason, c_text
+   public :: seconds, nap, utc_date, host_name, process_number, process_mark, is_neighbour, is_gone, get_reason, c_text
 
    integer, parameter :: path_none = 0    !! nothing of that name
    integer, parameter :: path_file = 1
@@ -138,6 +138,14 @@ module rv_posix
       integer(c_int64_t) function c_process_mark() bind(C, name="rv_posix_process_mark")
          import :: c_int64_t
       end function c_process_mark
+      integer(c_int) function c_is_neighbour(mark) bind(C, name="rv_posix_is_neighbour")
+         import :: c_int, c_int64_t
+         integer(c_int64_t), value :: mark
+      end function c_is_neighbour
+      integer(c_int) function c_is_gone(mark) bind(C, name="rv_posix_is_gone")
+         import :: c_int, c_int64_t
+         integer(c_int64_t), value :: mark
+      end function c_is_gone
    end interface
 
 contains
@@ -354,6 +362,20 @@ contains
 
       mark = c_process_mark()
    end function process_mark
+
+   !> Is the process of this mark on this host?
+   logical function is_neighbour(mark)
+      integer(i8), intent(in) :: mark
+
+      is_neighbour = c_is_neighbour(mark) /= 0
+   end function is_neighbour
+
+   !> Has the process of this mark, one of this host, ended?
+   logical function is_gone(mark)
+      integer(i8), intent(in) :: mark
+
+      is_gone = c_is_gone(mark) /= 0
+   end function is_gone
 
    !> The system's own sentence for an error number.
    subroutine get_reason(number, text)

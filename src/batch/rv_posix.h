@@ -37,5 +37,7 @@ void rv_posix_date(char *buffer, size_t size);
 void rv_posix_host(char *buffer, size_t size);
 int rv_posix_process(void);
 int64_t rv_posix_process_mark(void);
+int rv_posix_is_neighbour(int64_t mark);
+int rv_posix_is_gone(int64_t mark);
 
 #endif
