@@ -26,7 +26,7 @@ lose() {
    while kill -0 $job 2>/dev/null && [ "$(parts "$2")" = 0 ]; do sleep 0.05; done
    kill -9 "$(cat "pid.$1")"
    killed=$(date +%s)
-   ( sleep 60; kill -9 $job; for rank in 0 1 2; do kill -9 "$(cat pid.$rank)"; done ) 2>/dev/null &
+   ( sleep 60; kill -9 $job; for rank in 0 1 2; do kill -9 "$(cat pid.$rank)"; done ) >/dev/null 2>&1 &
    guard=$!
 }
 
