@@ -53,6 +53,7 @@ contains
 
       length = 0
       if (flag == nf90_noerr) flag = nf90_inquire_attribute(file, nf90_global, name, len=length)
+      if (flag /= nf90_noerr) length = 0   ! whatever a failed inquiry made of it
       allocate(character(len=length) :: text)
       if (flag == nf90_noerr .and. length > 0) flag = nf90_get_att(file, nf90_global, name, text)
    end subroutine get_attribute
