@@ -6,6 +6,7 @@ module rv_api_step
    use rv_kinds, only : wp, i8
    use rv_error, only : error_type, fail, rv_domain
    use rv_api_call, only : begin_call, refuse, settle, code_of_status, put_number, put_nan, rv_ok, no_pointer
+   use rv_blas_threads, only : begin_one_blas_thread, end_one_blas_thread
    use rv_block, only : n_traces
    use rv_case_facts, only : amplitudes_of, case_facts
    use rv_film_case, only : planform_cache
@@ -75,7 +76,9 @@ contains
       call amplitudes_of(value, inlet, outlet)
       scale = max(least_scale, history%span(inlet, outlet))
       value(key_pressure_kind) = real(kind_trace, wp)
+      call begin_one_blas_thread()
       call new_case_lanes(reshape(value, [n_keys, 1]), cache, lanes, facts)
+      call end_one_blas_thread()
       if (allocated(facts(1)%error)) then
          error = facts(1)%error
       else if (facts(1)%is_closed) then

@@ -6,6 +6,7 @@
 !> `solver.width` lanes; results come back in deck order. The cut depends on the block alone, never on who runs it.
 module rv_block
    use, intrinsic :: ieee_arithmetic, only : ieee_is_nan, ieee_value, ieee_quiet_nan
+   use rv_blas_threads, only : begin_one_blas_thread, end_one_blas_thread
    use rv_kinds, only : wp, i8
    use rv_error, only : error_type
    use rv_case_facts, only : case_facts, add_note
@@ -93,6 +94,7 @@ contains
       end do
       where (ieee_is_nan(order_by)) order_by = -huge(1.0_wp)
 
+      call begin_one_blas_thread()
       is_implicit = nint(deck%value(key_solver_method)) == method_implicit
       order = like_by_like(order_by, strip=merge(2, 1, is_implicit)*nint(deck%value(key_solver_width)))
       i = 1
@@ -102,6 +104,7 @@ contains
          call run_group(deck, value(:, order(i:top)), order(i:top), time, planform, result)
          i = top + 1
       end do
+      call end_one_blas_thread()
    end subroutine run_block
 
    !> The order of cases, which are columns of `key`: by what they share, then by the last but one, then by the last.
