@@ -12,7 +12,7 @@ reedvalve --version
 reedvalve run /usr/share/reedvalve/inputs/response.nml -o alone | grep 'none failed'
 install python3-attr python3-lxml python3-numpy
 echo "== fmu.md"
-PYTHONPATH=/importer sh fmu.sh /debs/fmu.md /work/fmu /usr || exit 1   # where a skip is a failure
+PYTHONPATH=/importer sh fmu.sh /debs/fmu.md /trial/fmu /usr || exit 1   # where a skip is a failure
 
 install ./*.deb gcc g++ gfortran libc6-dev cmake make pkg-config openmpi-bin
 mpirun --allow-run-as-root --oversubscribe -n 2 reedvalve_mpi run /usr/share/reedvalve/inputs/response.nml -o ranks |
@@ -23,7 +23,7 @@ awk '/^## / {heading = substr($0, 4)} /\/examples\// && heading != last {print l
 built=0
 while read -r heading; do
    echo "== $heading"
-   sh page.sh example /debs/install.md "$heading" /nowhere "/work/$built" /usr || exit 1
+   sh page.sh example /debs/install.md "$heading" /nowhere "/trial/$built" /usr || exit 1
    built=$((built + 1))
 done <headings
 [ $built -ge 7 ]
@@ -31,5 +31,5 @@ python3 -c 'import reedvalve'
 
 echo "== purge"
 apt-get -q -y purge reedvalve reedvalve-mpi python3-reedvalve 'libreedvalve*' >log 2>&1 || { tail -n 20 log; exit 1; }
-left=$(find / -xdev -path /debs -prune -o -path /work -prune -o -name '*reedvalve*' -print)
+left=$(find / -xdev -path /debs -prune -o -path /trial -prune -o -name '*reedvalve*' -print)
 [ -z "$left" ] || { echo "left behind: $left"; exit 1; }
